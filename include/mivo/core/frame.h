@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+#include <string>
+
+#include "mivo/core/camera.h"
+
+namespace mivo {
+
+/// One image with registered depth: the input of Odometry. The tracker keeps no reference to the
+/// pixels after Odometry::process has returned.
+struct Frame {
+  double stamp = 0.0;         ///< s, in the input's own time
+  cv::Mat image;              ///< CV_8UC1, grey
+  cv::Mat depth;              ///< same size: CV_32FC1 in metres, or CV_16UC1 in depth_unit; a value
+                              ///< that is not finite or not positive is no reading
+  double depth_unit = 0.001;  ///< metres per step of a CV_16UC1 depth
+};
+
+/// Order of the channels of a colour image.
+enum class ChannelOrder { kRgb, kBgr };
+
+/// Grey image of a CV_8U image with 1, 3 or 4 channels, or of a CV_16UC1 image (its high bytes).
+/// A grey 8-bit image is returned without a copy. Throws Error for any other type. Every input of
+/// mivo goes through this function, so that folder, bag and camera give the same bits.
+cv::Mat toGrey(const cv::Mat& image, ChannelOrder order);
+
+/// What is wrong with a frame for this camera, as one line, or an empty text when it can be used.
+std::string findFault(const Frame& frame, const Camera& camera);
+
+}  // namespace mivo

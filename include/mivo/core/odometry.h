@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <memory>
+#include <opencv2/core/mat.hpp>
+#include <vector>
+
+#include "mivo/core/camera.h"
+#include "mivo/core/frame.h"
+#include "mivo/core/parameters.h"
+#include "mivo/core/tracking_result.h"
+
+namespace mivo {
+
+/// A coloured point of the keyframe, for display: metres in the keyframe's optical frame, grey 0..255.
+struct CloudPoint {
+  float x;
+  float y;
+  float z;
+  float intensity;
+};
+
+/// Visual odometry of one camera: each frame is aligned with a keyframe by the hybrid tracker.
+/// One object, one thread; nothing is printed, and no frame makes it throw.
+class Odometry {
+ public:
+  /// Throws Error for an invalid camera or parameter.
+  Odometry(const Camera& camera, const Parameters& parameters);
+  ~Odometry();
+  Odometry(const Odometry&) = delete;
+  Odometry& operator=(const Odometry&) = delete;
+
+  /// Tracks one frame from the predicted pose. Stamps must grow; a frame that does not fit
+  /// (findFault) or is not newer changes nothing and is reported as kInvalidFrame.
+  const TrackingResult& process(const Frame& frame);
+
+  /// The same, from the given start instead of the predicted pose.
+  const TrackingResult& process(const Frame& frame, const Eigen::Isometry3d& T_odom_camera_start);
+
+  /// Where the motion model expects the camera at a time.
+  Eigen::Isometry3d predictedPose(double stamp) const;
+
+  /// Forgets keyframe, motion and stamps; the next frame starts at the given pose.
+  void reset(const Eigen::Isometry3d& T_odom_camera = Eigen::Isometry3d::Identity());
+
+  /// Moves the world: the last pose becomes the given one, tracking goes on undisturbed.
+  void setPose(const Eigen::Isometry3d& T_odom_camera);
+
+  /// Takes effect with the next frame. Throws Error and changes nothing when a value is invalid.
+  void setParameters(const Parameters& parameters);
+  const Parameters& parameters() const;
+
+  const Camera& camera() const;
+  const TrackingResult& result() const;  ///< of the last frame
+
+  bool hasKeyframe() const;
+  Eigen::Isometry3d keyframePose() const;        ///< T_odom_keyframe
+  cv::Mat keyframeImage() const;                 ///< CV_8UC1, a copy
+  std::vector<CloudPoint> keyframeCloud() const; ///< every second pixel with depth
+
+  /// Difference live - keyframe at every second pixel with depth, at the last pose, seen in the
+  /// keyframe: CV_8UC1 of half the size, 128 where they agree, where nothing is known too.
+  cv::Mat residualImage() const;
+
+ private:
+  class Implementation;
+  std::unique_ptr<Implementation> implementation_;
+};
+
+}  // namespace mivo

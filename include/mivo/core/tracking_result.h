@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+
+#include "mivo/core/se3.h"
+
+namespace mivo {
+
+/// Most levels of a pyramid; the upper bound of the parameter `levels`.
+constexpr int kMaxLevels = 8;
+
+enum class TrackingState {
+  kInitialising,  ///< no keyframe yet: the frame could not become one
+  kTracking,      ///< the pose is good
+  kDegraded,      ///< the pose is usable, but something is weak: see the reason
+  kLost           ///< the pose is the best guess, not a measurement
+};
+
+/// Why the state is what it is.
+enum class TrackingReason {
+  kNone,                ///< tracking, nothing to say
+  kInvalidFrame,        ///< size, type or stamp of the frame does not fit
+  kTooFewPoints,        ///< too little depth or texture for a keyframe, or to track
+  kNoOverlap,           ///< too few of the keyframe's points are in view
+  kSingular,            ///< the images do not fix all six degrees of freedom
+  kImplausibleMotion,   ///< faster than the limits allow
+  kNotFinite            ///< the alignment diverged
+};
+
+const char* toString(TrackingState state);    ///< initialising, tracking, degraded, lost
+const char* toString(TrackingReason reason);  ///< a few words, e.g. "too few points"
+
+/// What happened on one pyramid level.
+struct LevelRecord {
+  int level = 0;
+  int points = 0;       ///< of the keyframe on this level
+  int visible = 0;      ///< of them used at the end
+  int iterations = 0;   ///< steps taken
+  int evaluations = 0;  ///< of the cost, line search included
+  bool mutual_information = false;  ///< aligned by mutual information, otherwise by SSD
+  double cost = 0.0;           ///< at the end: nats (negative MI), or half the mean weighted square
+  double milliseconds = 0.0;   ///< processor time
+  double line_search_milliseconds = 0.0;  ///< of it, in evaluations of the line search
+};
+
+/// Processor time of one frame by stage, milliseconds.
+struct StageTimes {
+  double pyramid = 0.0;
+  double tracking = 0.0;
+  double keyframe = 0.0;
+  double total = 0.0;
+};
+
+/// Output of Odometry for one frame. All numbers are finite in every state.
+struct TrackingResult {
+  double stamp = 0.0;  ///< s, of the frame
+  TrackingState state = TrackingState::kInitialising;
+  TrackingReason reason = TrackingReason::kNone;
+
+  /// Pose of the colour optical frame in the odometry's world (the first camera pose unless set
+  /// otherwise). When lost: the best guess.
+  Eigen::Isometry3d T_odom_camera = Eigen::Isometry3d::Identity();
+
+  /// Covariance of the pose's error (translation m, rotation rad) in the axes of the camera:
+  /// T_true = T_odom_camera * retract(error). Symmetric and positive definite. It is that of the
+  /// alignment with the keyframe; the keyframe's own error is not in it.
+  Matrix6 covariance = Matrix6::Identity();
+
+  /// Velocity of the camera in its own axes: m/s and rad/s; zero until two poses are known.
+  Vector6 velocity = Vector6::Zero();
+
+  int keyframe = 0;           ///< number of the keyframe the frame was tracked against, from 1; 0: none
+  bool new_keyframe = false;  ///< this frame became a keyframe
+  int keyframes = 0;          ///< made so far
+  int segment = 0;            ///< grows when tracking starts anew at a guessed pose
+  int points = 0;             ///< used on the finest level
+  double overlap = 0.0;       ///< fraction of the keyframe's points in view, 0..1
+  double mutual_information = 0.0;  ///< nats, with the keyframe, on the finest MI level (or 0: none)
+  double residual_scale = 0.0;      ///< grey levels, robust, on the finest SSD level (or 0: none)
+
+  int num_levels = 0;                             ///< entries of `levels`, coarsest first
+  std::array<LevelRecord, kMaxLevels> levels{};
+  StageTimes milliseconds;
+};
+
+}  // namespace mivo
