@@ -37,8 +37,12 @@ std::string toText(double value) {
   return "nan";
 }
 
-std::string toText(int value) { return std::to_string(value); }
-std::string toText(bool value) { return value ? "true" : "false"; }
+std::string toText(int value) {
+  return std::to_string(value);
+}
+std::string toText(bool value) {
+  return value ? "true" : "false";
+}
 
 std::string rangeText(const ParameterInfo& info) {
   if (info.type == ParameterInfo::Type::kBool) return "true or false";
@@ -76,7 +80,7 @@ void parse(const ParameterInfo& info, const std::string& value, int& target) {
   target = static_cast<int>(number);
 }
 
-void parse(const ParameterInfo& info, const std::string& value, bool& target) {
+[[maybe_unused]] void parse(const ParameterInfo& info, const std::string& value, bool& target) {
   if (value == "true" || value == "True" || value == "1") {
     target = true;
   } else if (value == "false" || value == "False" || value == "0") {
@@ -91,11 +95,6 @@ void parse(const ParameterInfo& info, const std::string& value, Enum& target) {
   const auto word = std::find(info.words.begin(), info.words.end(), value);
   if (word == info.words.end()) refuse(info, value);
   target = static_cast<Enum>(word - info.words.begin());
-}
-
-template <typename Value>
-std::string print(const ParameterInfo&, Value value) {
-  return toText(value);
 }
 
 template <typename Enum>
@@ -136,18 +135,33 @@ std::vector<ParameterInfo> makeTable() {
   std::vector<ParameterInfo> table;
   std::string group;
 #define MIVO_GROUP(title) group = title;
-#define MIVO_INT(name, value, minimum, maximum, unit, update, text)                               \
-  table.push_back({group, #name, Type::kInt, toText(defaults.name), minimum, maximum, {}, unit, \
-                   update, text});
-#define MIVO_DOUBLE(name, value, minimum, maximum, unit, update, text)                              \
-  table.push_back({group, #name, Type::kDouble, toText(defaults.name), minimum, maximum, {}, unit, \
-                   update, text});
+#define MIVO_INT(name, value, minimum, maximum, unit, update, text) \
+  table.push_back({group,                                           \
+                   #name,                                           \
+                   Type::kInt,                                      \
+                   toText(defaults.name),                           \
+                   minimum,                                         \
+                   maximum,                                         \
+                   {},                                              \
+                   unit,                                            \
+                   update,                                          \
+                   text});
+#define MIVO_DOUBLE(name, value, minimum, maximum, unit, update, text) \
+  table.push_back({group,                                              \
+                   #name,                                              \
+                   Type::kDouble,                                      \
+                   toText(defaults.name),                              \
+                   minimum,                                            \
+                   maximum,                                            \
+                   {},                                                 \
+                   unit,                                               \
+                   update,                                             \
+                   text});
 #define MIVO_BOOL(name, value, update, text) \
   table.push_back(                           \
       {group, #name, Type::kBool, toText(defaults.name), 0.0, 1.0, {}, "", update, text});
-#define MIVO_ENUM(EnumType, name, value, choices, update, text)                               \
-  table.push_back(                                                                            \
-      {group, #name, Type::kEnum, "", 0.0, 0.0, split(choices), "", update, text});           \
+#define MIVO_ENUM(EnumType, name, value, choices, update, text)                                 \
+  table.push_back({group, #name, Type::kEnum, "", 0.0, 0.0, split(choices), "", update, text}); \
   table.back().default_value = printEnum(table.back(), defaults.name);
 #include "mivo/core/parameters.def"
 #undef MIVO_GROUP
@@ -176,9 +190,15 @@ void visit(ParametersType& parameters, Visitor&& visitor) {
 #undef MIVO_ENUM
 }
 
-std::string valueText(const ParameterInfo& info, int value) { return print(info, value); }
-std::string valueText(const ParameterInfo& info, double value) { return print(info, value); }
-std::string valueText(const ParameterInfo& info, bool value) { return print(info, value); }
+std::string valueText(const ParameterInfo&, int value) {
+  return toText(value);
+}
+std::string valueText(const ParameterInfo&, double value) {
+  return toText(value);
+}
+[[maybe_unused]] std::string valueText(const ParameterInfo&, bool value) {
+  return toText(value);
+}
 template <typename Enum>
 std::string valueText(const ParameterInfo& info, Enum value) {
   return printEnum(info, value);

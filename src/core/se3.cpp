@@ -16,7 +16,8 @@ Eigen::Matrix3d leftJacobian(const Eigen::Vector3d& w) {
   const Eigen::Matrix3d W = skew(w);
   const bool small = angle < kSmallAngle;
   const double a = small ? 0.5 - square / 24.0 : (1.0 - std::cos(angle)) / square;
-  const double b = small ? 1.0 / 6.0 - square / 120.0 : (angle - std::sin(angle)) / (square * angle);
+  const double b =
+      small ? 1.0 / 6.0 - square / 120.0 : (angle - std::sin(angle)) / (square * angle);
   return Eigen::Matrix3d::Identity() + a * W + b * W * W;
 }
 
@@ -45,9 +46,9 @@ Eigen::Vector3d logSo3(const Eigen::Matrix3d& R) {
   Eigen::Quaterniond q(R);
   if (q.w() < 0.0) q.coeffs() = -q.coeffs();
   const double sine = q.vec().norm();  // of the half angle
-  const double factor =
-      sine < kSmallAngle ? 2.0 / q.w() * (1.0 - sine * sine / (3.0 * q.w() * q.w()))
-                         : 2.0 * std::atan2(sine, q.w()) / sine;
+  const double factor = sine < kSmallAngle
+                            ? 2.0 / q.w() * (1.0 - sine * sine / (3.0 * q.w() * q.w()))
+                            : 2.0 * std::atan2(sine, q.w()) / sine;
   return factor * q.vec();
 }
 

@@ -6,8 +6,8 @@
 
 namespace mivo {
 
-/// Lens distortion in OpenCV's order of "plumb_bob": radial k1, k2, k3 and tangential p1, p2, acting
-/// on normalised coordinates. It does not change with the pyramid level.
+/// Lens distortion in OpenCV's order of "plumb_bob": radial k1, k2, k3 and tangential p1, p2,
+/// acting on normalised coordinates. It does not change with the pyramid level.
 struct Distortion {
   double k1 = 0.0;
   double k2 = 0.0;
@@ -33,8 +33,8 @@ struct Camera {
   void validate() const;
 
   /// The camera of pyramid level `level` (0: this one). Levels are reduced by a Gaussian that keeps
-  /// the even pixels (cv::pyrDown): pixel (x, y) of a level is centred on (2x, 2y) of the finer one,
-  /// so focal lengths and principal point halve exactly, with no half pixel added.
+  /// the even pixels (cv::pyrDown): pixel (x, y) of a level is centred on (2x, 2y) of the finer
+  /// one, so focal lengths and principal point halve exactly, with no half pixel added.
   Camera atLevel(int level) const;
 
   /// Pixel of a point in the optical frame, metres; nothing for a point behind the camera or so far

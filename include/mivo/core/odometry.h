@@ -13,7 +13,8 @@
 
 namespace mivo {
 
-/// A coloured point of the keyframe, for display: metres in the keyframe's optical frame, grey 0..255.
+/// A coloured point of the keyframe, for display: metres in the keyframe's optical frame, grey
+/// 0..255.
 struct CloudPoint {
   float x;
   float y;
@@ -55,9 +56,9 @@ class Odometry {
   const TrackingResult& result() const;  ///< of the last frame
 
   bool hasKeyframe() const;
-  Eigen::Isometry3d keyframePose() const;        ///< T_odom_keyframe
-  cv::Mat keyframeImage() const;                 ///< CV_8UC1, a copy
-  std::vector<CloudPoint> keyframeCloud() const; ///< every second pixel with depth
+  Eigen::Isometry3d keyframePose() const;         ///< T_odom_keyframe
+  cv::Mat keyframeImage() const;                  ///< CV_8UC1, a copy
+  std::vector<CloudPoint> keyframeCloud() const;  ///< every second pixel with depth
 
   /// Difference live - keyframe at every second pixel with depth, at the last pose, seen in the
   /// keyframe: CV_8UC1 of half the size, 128 where they agree, where nothing is known too.

@@ -10,7 +10,7 @@ enum class Method { kSsd, kMi, kHybrid };
 enum class MiHessian { kFull, kReference };
 enum class RobustWeight { kNone, kHuber, kTukey, kStudentT };
 enum class KeyframePolicy { kAutomatic, kFirst };
-enum class MotionModel { kConstantVelocity, kConstantPose };
+enum class Prediction { kConstantVelocity, kConstantPose };
 
 /// When a changed parameter acts: with the next frame, or with the next keyframe (made at once).
 enum class Update { kLive, kKeyframe };

@@ -20,13 +20,13 @@ enum class TrackingState {
 
 /// Why the state is what it is.
 enum class TrackingReason {
-  kNone,                ///< tracking, nothing to say
-  kInvalidFrame,        ///< size, type or stamp of the frame does not fit
-  kTooFewPoints,        ///< too little depth or texture for a keyframe, or to track
-  kNoOverlap,           ///< too few of the keyframe's points are in view
-  kSingular,            ///< the images do not fix all six degrees of freedom
-  kImplausibleMotion,   ///< faster than the limits allow
-  kNotFinite            ///< the alignment diverged
+  kNone,               ///< tracking, nothing to say
+  kInvalidFrame,       ///< size, type or stamp of the frame does not fit
+  kTooFewPoints,       ///< too little depth or texture for a keyframe, or to track
+  kNoOverlap,          ///< too few of the keyframe's points are in view
+  kSingular,           ///< the images do not fix all six degrees of freedom
+  kImplausibleMotion,  ///< faster than the limits allow
+  kNotFinite           ///< the alignment diverged
 };
 
 const char* toString(TrackingState state);    ///< initialising, tracking, degraded, lost
@@ -35,13 +35,13 @@ const char* toString(TrackingReason reason);  ///< a few words, e.g. "too few po
 /// What happened on one pyramid level.
 struct LevelRecord {
   int level = 0;
-  int points = 0;       ///< of the keyframe on this level
-  int visible = 0;      ///< of them used at the end
-  int iterations = 0;   ///< steps taken
-  int evaluations = 0;  ///< of the cost, line search included
+  int points = 0;                   ///< of the keyframe on this level
+  int visible = 0;                  ///< of them used at the end
+  int iterations = 0;               ///< steps taken
+  int evaluations = 0;              ///< of the cost, line search included
   bool mutual_information = false;  ///< aligned by mutual information, otherwise by SSD
-  double cost = 0.0;           ///< at the end: nats (negative MI), or half the mean weighted square
-  double milliseconds = 0.0;   ///< processor time
+  double cost = 0.0;          ///< at the end: nats (negative MI), or half the mean weighted square
+  double milliseconds = 0.0;  ///< processor time
   double line_search_milliseconds = 0.0;  ///< of it, in evaluations of the line search
 };
 
@@ -71,16 +71,17 @@ struct TrackingResult {
   /// Velocity of the camera in its own axes: m/s and rad/s; zero until two poses are known.
   Vector6 velocity = Vector6::Zero();
 
-  int keyframe = 0;           ///< number of the keyframe the frame was tracked against, from 1; 0: none
+  int keyframe = 0;  ///< number of the keyframe the frame was tracked against, from 1; 0: none
   bool new_keyframe = false;  ///< this frame became a keyframe
   int keyframes = 0;          ///< made so far
   int segment = 0;            ///< grows when tracking starts anew at a guessed pose
   int points = 0;             ///< used on the finest level
   double overlap = 0.0;       ///< fraction of the keyframe's points in view, 0..1
-  double mutual_information = 0.0;  ///< nats, with the keyframe, on the finest MI level (or 0: none)
-  double residual_scale = 0.0;      ///< grey levels, robust, on the finest SSD level (or 0: none)
+  double mutual_information =
+      0.0;                      ///< nats, with the keyframe, on the finest MI level (or 0: none)
+  double residual_scale = 0.0;  ///< grey levels, robust, on the finest SSD level (or 0: none)
 
-  int num_levels = 0;                             ///< entries of `levels`, coarsest first
+  int num_levels = 0;  ///< entries of `levels`, coarsest first
   std::array<LevelRecord, kMaxLevels> levels{};
   StageTimes milliseconds;
 };

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+#include <vector>
+
+#include "mivo/core/cost_term.h"
+#include "mivo/core/joint_histogram.h"
+#include "mivo/core/parameters.h"
+#include "mivo/core/reference_points.h"
+#include "mivo/core/warp.h"
+
+namespace mivo {
+
+/// What mutual information needs of the keyframe on one level, computed once (section II-E).
+struct MiReference {
+  std::vector<BinPosition> bins;  ///< of each point
+  float bins_per_grey_level = 0.0F;
+  /// Hessian of the cost of the keyframe aligned with itself, nats; for mi_hessian reference.
+  Matrix6 self_hessian = Matrix6::Identity();
+};
+
+/// Bins of the points of a level whose image is CV_32FC1.
+MiReference makeMiReference(const ReferencePoints& points, const cv::Mat& image,
+                            const Parameters& parameters);
+
+/// Mutual information of the points' intensities in keyframe and live image (Eq. 2 to 4) as a cost:
+/// minus the number of points times their mutual information.
+class MiTerm : public CostTerm {
+ public:
+  /// Keeps references to all arguments but the parameters. `points` need second derivatives.
+  MiTerm(const ReferencePoints& points, const MiReference& reference, const cv::Mat& live_image,
+         const Warp& warp, const Parameters& parameters);
+
+  double evaluate(const Eigen::Isometry3d& T_live_ref) override;
+  QuadraticModel linearise(int iteration) override;
+
+  double mutualInformation() const { return mutual_information_; }
+  std::size_t numVisible() const { return samples_.num_visible; }
+
+ private:
+  const ReferencePoints& points_;
+  const MiReference& reference_;
+  const cv::Mat& live_image_;
+  const Warp& warp_;
+  MiHessian hessian_;
+  int threads_;
+  Binning live_binning_;
+  LiveSamples samples_;
+  std::vector<BinPosition> live_bins_;
+  JointHistogram histogram_;
+  std::vector<JointHistogram> parts_;
+  double mutual_information_ = 0.0;
+};
+
+/// Gradient and Hessian of the mutual information of n pairs of bin positions with respect to the
+/// increment, in nats per pair (sections II-C and II-D), for a histogram of these pairs.
+struct MiDerivatives {
+  Vector6 gradient = Vector6::Zero();
+  Matrix6 hessian = Matrix6::Zero();
+};
+MiDerivatives mutualInformationDerivatives(const ReferencePoints& points,
+                                           const MiReference& reference,
+                                           const std::vector<BinPosition>& live,
+                                           const std::vector<unsigned char>& visible,
+                                           std::size_t num_visible, const JointHistogram& histogram,
+                                           int threads);
+
+}  // namespace mivo

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+#include <vector>
+
+namespace mivo {
+
+/// A pixel of a level.
+struct Pixel {
+  int x;
+  int y;
+};
+
+struct SelectionLimits {
+  int num_points;          ///< to choose at most
+  float min_gradient;      ///< grey levels per pixel
+  int cell_size;           ///< pixels; the points are spread evenly over cells of this side
+  float depth_edge_ratio;  ///< see isSmoothDepth
+};
+
+/// The salient pixels of a level (section III-C): gradient above a threshold, maximal along its
+/// direction, on a smooth surface with depth, and spread over the image: each cell gives its
+/// strongest ones, as many as are needed to fill the number. Row by row, left to right.
+/// @param image CV_32FC1 grey, @param depth CV_32FC1 metres (0: none), same size
+std::vector<Pixel> selectSalient(const cv::Mat& image, const cv::Mat& depth,
+                                 const SelectionLimits& limits);
+
+/// Every pixel on a smooth surface with depth: for the coarsest level.
+std::vector<Pixel> selectAll(const cv::Mat& depth, float depth_edge_ratio);
+
+}  // namespace mivo

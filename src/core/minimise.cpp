@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mivo/core/minimise.h"
+
+#include <cmath>
+
+#include "mivo/core/cpu_clock.h"
+#include "mivo/core/newton_step.h"
+
+namespace mivo {
+namespace {
+
+double evaluate(const std::vector<CostTerm*>& terms, const Eigen::Isometry3d& T_live_ref) {
+  double cost = 0.0;
+  for (CostTerm* term : terms) cost += term->evaluate(T_live_ref);
+  return cost;
+}
+
+QuadraticModel linearise(const std::vector<CostTerm*>& terms, int iteration) {
+  QuadraticModel sum;
+  for (CostTerm* term : terms) {
+    const QuadraticModel model = term->linearise(iteration);
+    sum.cost += model.cost;
+    sum.gradient += model.gradient;
+    sum.hessian += model.hessian;
+  }
+  return sum;
+}
+
+}  // namespace
+
+Minimum minimise(const std::vector<CostTerm*>& terms, const Eigen::Isometry3d& T_live_ref,
+                 double length, const Matrix6& pixel_motion, const Parameters& parameters) {
+  Minimum minimum;
+  minimum.T_live_ref = T_live_ref;
+  minimum.cost = evaluate(terms, T_live_ref);
+  minimum.evaluations = 1;
+  bool is_evaluated_there = true;  // the terms stand at minimum.T_live_ref
+  while (std::isfinite(minimum.cost) && minimum.iterations < parameters.max_iterations) {
+    const QuadraticModel model = linearise(terms, minimum.iterations);
+    minimum.cost = model.cost;
+    const NewtonStep newton = newtonStep(model, length, parameters.mi_min_curvature);
+    minimum.hessian = newton.hessian;
+    minimum.condition = newton.condition;
+    // Half the slope is what a quadratic cost would gain; without this test the last iteration
+    // would spend all its halvings on nothing.
+    const double enough = parameters.min_cost_change * std::abs(model.cost);
+    const double pixels = std::sqrt(std::max(0.0, newton.step.dot(pixel_motion * newton.step)));
+    if (0.5 * newton.promised_gain <= enough || !(pixels > 0.0)) break;
+
+    double length_factor = std::min(1.0, parameters.max_step_pixels / pixels);
+    bool is_accepted = false;
+    const double start = threadMilliseconds();
+    for (int halving = 0; halving <= parameters.line_search_halvings; ++halving) {
+      const Eigen::Isometry3d candidate =
+          orthonormalised(minimum.T_live_ref * retract(length_factor * newton.step).inverse());
+      const double cost = evaluate(terms, candidate);
+      ++minimum.evaluations;
+      is_evaluated_there = false;
+      if (cost <=
+          model.cost - parameters.line_search_slope * length_factor * newton.promised_gain) {
+        minimum.T_live_ref = candidate;
+        minimum.cost = cost;
+        is_accepted = true;
+        is_evaluated_there = true;
+        break;
+      }
+      length_factor *= 0.5;
+    }
+    minimum.line_search_milliseconds += threadMilliseconds() - start;
+    if (!is_accepted) break;
+    ++minimum.iterations;
+    if (length_factor * pixels < parameters.min_step_pixels || model.cost - minimum.cost < enough) {
+      break;
+    }
+  }
+  if (!is_evaluated_there) minimum.cost = evaluate(terms, minimum.T_live_ref);
+  return minimum;
+}
+
+}  // namespace mivo

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mivo/core/reference_points.h"
+
+#include <algorithm>
+
+namespace mivo {
+namespace {
+
+Eigen::Vector2d imageGradient(const cv::Mat& image, const Pixel& p) {
+  const auto* row = image.ptr<float>(p.y);
+  return 0.5 * Eigen::Vector2d(row[p.x + 1] - row[p.x - 1],
+                               image.ptr<float>(p.y + 1)[p.x] - image.ptr<float>(p.y - 1)[p.x]);
+}
+
+Eigen::Matrix2d imageHessian(const cv::Mat& image, const Pixel& p) {
+  const auto* above = image.ptr<float>(p.y - 1);
+  const auto* row = image.ptr<float>(p.y);
+  const auto* below = image.ptr<float>(p.y + 1);
+  const double xy = 0.25 * (below[p.x + 1] - below[p.x - 1] - above[p.x + 1] + above[p.x - 1]);
+  Eigen::Matrix2d hessian;
+  hessian << row[p.x + 1] - 2.0F * row[p.x] + row[p.x - 1], xy, xy,
+      below[p.x] - 2.0F * row[p.x] + above[p.x];
+  return hessian;
+}
+
+/// Rows: derivative of X/Z and Y/Z with respect to X, Y, Z.
+Eigen::Matrix<double, 2, 3> projectionJacobian(const Eigen::Vector3d& point) {
+  const double inverse = 1.0 / point.z();
+  Eigen::Matrix<double, 2, 3> J;
+  J << inverse, 0.0, -point.x() * inverse * inverse, 0.0, inverse, -point.y() * inverse * inverse;
+  return J;
+}
+
+float median(std::vector<float> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+void resize(std::size_t n, bool with_second_derivative, ReferencePoints& points) {
+  for (std::vector<float>* array : {&points.x, &points.y, &points.z, &points.intensity}) {
+    array->resize(n);
+  }
+  for (std::vector<float>& array : points.jacobian) array.resize(n);
+  for (std::vector<float>& array : points.second_derivative) {
+    array.resize(with_second_derivative ? n : 0);
+  }
+}
+
+}  // namespace
+
+PointDerivatives pointDerivatives(const Eigen::Vector3d& point,
+                                  const Eigen::Vector2d& normalised_gradient,
+                                  const Eigen::Matrix2d& normalised_hessian) {
+  const Eigen::Matrix<double, 2, 3> projection = projectionJacobian(point);
+  const Eigen::Vector3d g = projection.transpose() * normalised_gradient;  // d I / d (X, Y, Z)
+  PointDerivatives result;
+  result.jacobian << g, point.cross(g);
+
+  // Second derivative with respect to (X, Y, Z): through the image, and through the projection.
+  Eigen::Matrix3d Q = projection.transpose() * normalised_hessian * projection;
+  const double inverse_square = 1.0 / (point.z() * point.z());
+  const Eigen::Vector2d bend = normalised_gradient * inverse_square;
+  Q.topRightCorner<2, 1>() -= bend;
+  Q.bottomLeftCorner<1, 2>() -= bend.transpose();
+  Q(2, 2) += 2.0 * bend.dot(point.head<2>()) / point.z();
+
+  Eigen::Matrix<double, 3, 6> D;  // d (exp(w) X + v) / d (v, w)
+  D << Eigen::Matrix3d::Identity(), -skew(point);
+  result.second = D.transpose() * Q * D;
+  // Second order of the rotation itself: exp(w) X = X + w x X + w x (w x X) / 2.
+  result.second.bottomRightCorner<3, 3>() += 0.5 * (g * point.transpose() + point * g.transpose()) -
+                                             g.dot(point) * Eigen::Matrix3d::Identity();
+  return result;
+}
+
+void makeReferencePoints(const cv::Mat& image, const cv::Mat& depth, const Camera& camera,
+                         const std::vector<Pixel>& pixels, bool with_second_derivative,
+                         ReferencePoints& points) {
+  const std::size_t n = pixels.size();
+  points.pixels = pixels;
+  resize(n, with_second_derivative, points);
+  points.pixel_motion.setZero();
+  const Eigen::Vector2d focal(camera.fx, camera.fy);
+  const bool distorted = !camera.distortion.isZero();
+  for (std::size_t i = 0; i < n; ++i) {
+    const Pixel& pixel = pixels[i];
+    const double z = depth.at<float>(pixel.y, pixel.x);
+    const Eigen::Vector3d ray = camera.ray({pixel.x, pixel.y});
+    const Eigen::Vector3d point = z * ray;
+    // d pixel / d normalised coordinates. The curvature of the distortion itself is left out of the
+    // second derivatives: it is hundreds of times weaker than the image's.
+    Eigen::Matrix2d scale = Eigen::Matrix2d::Identity();
+    if (distorted) camera.distort(ray.head<2>(), &scale);
+    scale = focal.asDiagonal() * scale;
+    const PointDerivatives derivatives =
+        pointDerivatives(point, scale.transpose() * imageGradient(image, pixel),
+                         scale.transpose() * imageHessian(image, pixel) * scale);
+    points.x[i] = static_cast<float>(point.x());
+    points.y[i] = static_cast<float>(point.y());
+    points.z[i] = static_cast<float>(point.z());
+    points.intensity[i] = image.at<float>(pixel.y, pixel.x);
+    for (std::size_t k = 0; k < 6; ++k) {
+      points.jacobian[k][i] = static_cast<float>(derivatives.jacobian[static_cast<int>(k)]);
+    }
+    if (with_second_derivative) {
+      std::size_t entry = 0;
+      for (int row = 0; row < 6; ++row) {
+        for (int column = row; column < 6; ++column) {
+          points.second_derivative[entry++][i] =
+              static_cast<float>(derivatives.second(row, column));
+        }
+      }
+    }
+    Eigen::Matrix<double, 3, 6> D;
+    D << Eigen::Matrix3d::Identity(), -skew(point);
+    const Eigen::Matrix<double, 2, 6> motion = scale * projectionJacobian(point) * D;
+    points.pixel_motion += motion.transpose() * motion;
+  }
+  points.median_depth = n > 0 ? median(points.z) : 1.0F;
+  if (n > 0) points.pixel_motion /= static_cast<double>(n);
+}
+
+}  // namespace mivo
