@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "mivo/core/camera.h"
+#include "mivo/io/output_file.h"
+
+namespace mivo {
+
+/// What `camera.txt` of a sequence folder says.
+struct SequenceCamera {
+  Camera camera;
+  double depth_units_per_metre = 1000.0;
+};
+
+/// Reads `#` comments and one line `width height fx fy cx cy depth_units_per_metre [k1 k2 p1 p2
+/// k3]`. Throws Error naming file and line.
+SequenceCamera readCamera(const std::string& path);
+
+/// Throws Error when the file exists and may not be replaced, or cannot be written.
+void writeCamera(const std::string& path, const SequenceCamera& camera, Overwrite overwrite);
+
+/// The published colour camera of a TUM RGB-D sequence, when the folder's name has freiburg1,
+/// freiburg2 or freiburg3 in it.
+std::optional<SequenceCamera> tumCamera(const std::string& folder_name);
+
+}  // namespace mivo

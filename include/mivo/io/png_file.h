@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+#include <string>
+
+#include "mivo/io/output_file.h"
+
+namespace mivo {
+
+/// The image of a PNG file with its own channels and depth; colour in the order blue, green, red.
+/// Throws Error, naming the file, when it is missing, truncated or damaged: a decoder on its own
+/// may return the part of the image that it could make sense of.
+cv::Mat readPng(const std::string& path);
+
+/// Writes a CV_8U image with 1, 3 (blue, green, red) or 4 channels or a CV_16UC1 image. Throws
+/// Error.
+void writePng(const std::string& path, const cv::Mat& image, Overwrite overwrite);
+
+}  // namespace mivo

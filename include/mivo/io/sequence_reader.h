@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "mivo/io/camera_file.h"
+#include "mivo/io/frame_range.h"
+#include "mivo/io/frame_source.h"
+
+namespace mivo {
+
+/// A recording as a folder in the layout of the TUM RGB-D benchmark:
+///
+///   rgb.txt, depth.txt   lines `stamp path`, paths relative to the folder, PNG images; depth in 16
+///                        bits, registered to the colour camera, 0 where there is no reading
+///   associations.txt     optional: lines `stamp_rgb path stamp_depth path`. Without it each colour
+///                        image gets the depth image nearest in time, less than 20 ms away
+///   camera.txt           see readCamera; may be missing when tumCamera knows the folder's name
+///
+/// The stamp of a frame is that of its colour image. Without associations the frames come sorted by
+/// stamp, with them in the order of the file.
+class SequenceReader : public FrameSource {
+ public:
+  /// Opens the folder and looks at the first images. Throws Error when the folder or one of its
+  /// files is missing or malformed, the range has no frame, no frame can be read, or the images of
+  /// the first one that can be read do not fit the camera or each other.
+  explicit SequenceReader(const std::string& folder, const FrameRange& range = {});
+
+  const Camera& camera() const override { return camera_.camera; }
+  std::size_t size() const override { return entries_.size(); }
+
+  /// The depth is handed on as it is stored, with Frame::depth_unit. A frame is skipped when one of
+  /// its images is missing, damaged, of the wrong type or of the wrong size.
+  Status next(Frame& frame, std::string& fault) override;
+
+  double depthUnitsPerMetre() const { return camera_.depth_units_per_metre; }
+
+  /// One line the user should know, or an empty text: what was assumed about this folder.
+  const std::string& notice() const { return notice_; }
+
+ private:
+  struct Entry {
+    double stamp;
+    std::string image_path;
+    std::string depth_path;
+  };
+
+  void readCameraOf(const std::string& folder);
+  void readEntries(const std::string& folder);
+  void pairEntries(const std::string& folder);
+  void probe() const;
+  Frame read(const Entry& entry) const;
+  std::string sizeFault(const Frame& frame, const Entry& entry) const;
+
+  SequenceCamera camera_;
+  std::string notice_;
+  std::vector<Entry> entries_;
+  std::size_t next_ = 0;
+};
+
+}  // namespace mivo

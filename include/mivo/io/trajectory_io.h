@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+
+#include "mivo/core/stamped_pose.h"
+#include "mivo/io/output_file.h"
+
+// Trajectories as text: lines `stamp tx ty tz qx qy qz qw`, the pose of the colour optical frame in
+// the world in metres, `#` for comments.
+
+namespace mivo {
+
+/// The line of one pose, with its end of line: 6 decimals of the stamp, 12 digits of the pose, and
+/// the quaternion whose qw is not negative.
+std::string trajectoryLine(const StampedPose& pose);
+
+/// Poses in the order of the file. Quaternions are normalised when they are within a tenth of unit
+/// length. Throws Error, naming file and line, for anything that is not 8 finite numbers or no
+/// rotation, and when there is no pose at all.
+Trajectory readTrajectory(const std::string& path);
+
+/// Writes a trajectory pose by pose; each is on disk when `write` has returned.
+class TrajectoryWriter {
+ public:
+  /// Throws Error when the file exists and may not be replaced, or cannot be created.
+  TrajectoryWriter(const std::string& path, Overwrite overwrite);
+
+  /// Throws Error when the pose is not finite or cannot be written.
+  void write(const StampedPose& pose);
+
+ private:
+  OutputFile file_;
+};
+
+}  // namespace mivo

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "programs/statistics_file.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace mivo {
+namespace {
+
+/// The record of a level, all zero when the frame was not aligned on it.
+LevelRecord recordOf(const TrackingResult& result, int level) {
+  for (int i = 0; i < result.num_levels; ++i) {
+    const LevelRecord& record = result.levels[static_cast<std::size_t>(i)];
+    if (record.level == level) return record;
+  }
+  return {};
+}
+
+}  // namespace
+
+StatisticsFile::StatisticsFile(const std::string& path, Overwrite overwrite, int levels)
+    : file_(path, overwrite), levels_(levels) {
+  std::string header = "stamp,state,reason,keyframe,new_keyframe,segment";
+  for (int level = 0; level < levels; ++level) {
+    header += fmt::format(",iterations_{0},points_{0},visible_{0}", level);
+  }
+  header +=
+      ",mutual_information,residual_scale,overlap"
+      ",sigma_tx,sigma_ty,sigma_tz,sigma_rx,sigma_ry,sigma_rz"
+      ",ms_pyramid,ms_tracking,ms_keyframe,ms_total,cpu_ms\n";
+  file_.write(header);
+}
+
+void StatisticsFile::write(double stamp, const TrackingResult& result, double cpu_ms) {
+  std::string row =
+      fmt::format("{:.6f},{},{},{},{},{}", stamp, toString(result.state), toString(result.reason),
+                  result.keyframe, result.new_keyframe ? 1 : 0, result.segment);
+  for (int level = 0; level < levels_; ++level) {
+    const LevelRecord record = recordOf(result, level);
+    row += fmt::format(",{},{},{}", record.iterations, record.points, record.visible);
+  }
+  row += fmt::format(",{:.6g},{:.6g},{:.6g}", result.mutual_information, result.residual_scale,
+                     result.overlap);
+  for (int i = 0; i < 6; ++i) row += fmt::format(",{:.6g}", std::sqrt(result.covariance(i, i)));
+  const StageTimes& times = result.milliseconds;
+  row += fmt::format(",{:.3f},{:.3f},{:.3f},{:.3f},{:.3f}\n", times.pyramid, times.tracking,
+                     times.keyframe, times.total, cpu_ms);
+  file_.write(row);
+}
+
+}  // namespace mivo
