@@ -103,7 +103,7 @@ std::string CommandLine::help() const {
   return text.str();
 }
 
-po::value_semantic* twoNumbers(std::vector<double>* target) {
+po::typed_value<std::vector<double>>* twoNumbers(std::vector<double>* target) {
   return new TwoNumbers(target);
 }
 
