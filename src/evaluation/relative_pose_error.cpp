@@ -29,8 +29,9 @@ std::vector<RelativePoseError> errorsOfPairs(
         std::abs(Q_j.stamp - stamps[j]) > max_time_difference) {
       continue;
     }
-    const Eigen::Isometry3d error =
-        (Q_i.pose.inverse() * Q_j.pose).inverse() * (P[i].pose.inverse() * P[j].pose);
+    const Eigen::Isometry3d true_motion = Q_j.pose.inverse() * Q_i.pose;
+    const Eigen::Isometry3d motion = P[j].pose.inverse() * P[i].pose;
+    const Eigen::Isometry3d error = motion.inverse() * true_motion;
     errors.push_back({stamps[i], error.translation().norm(), logSo3(error.linear()).norm()});
   }
   return errors;

@@ -37,7 +37,7 @@ void TrackingCommandLine::declare(CommandLine& line) {
       "method", po::value(&method_)->value_name("ssd|mi|hybrid"), "short for --set method=...")(
       "config", po::value(&config_)->value_name("FILE"), "YAML file with lines 'name: value'")(
       "set", po::value(&settings_)->composing()->value_name("name=value"),
-      "set one parameter; may be given several times and goes before all else")(
+      "set one parameter; may be given several times and overrides all else")(
       "start", po::value(&start_)->value_name("N")->default_value(0), "number of the first frame")(
       "count", po::value(&count_)->value_name("N"), "number of frames (default: all)")(
       "threads", po::value(&threads_)->value_name("N"), "short for --set threads=...")(

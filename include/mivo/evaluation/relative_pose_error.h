@@ -7,7 +7,7 @@
 
 namespace mivo {
 
-/// Error of the motion between two poses of the estimate, in the axes of the second camera.
+/// Error of the motion between two poses of the estimate.
 struct RelativePoseError {
   double stamp;        ///< s, of the first of the two
   double translation;  ///< m
@@ -16,8 +16,10 @@ struct RelativePoseError {
 
 /// Drift over `delta` seconds (J. Sturm et al., "A Benchmark for the Evaluation of RGB-D SLAM
 /// Systems", 2012, Sec. IV): with the true poses Q and the estimated ones P, the error is
-/// (Q_i^-1 Q_j)^-1 (P_i^-1 P_j), measured by the norm of its translation and the angle of its
-/// rotation. Pairs are made as the benchmark's tool makes them with a fixed delta: each pose i with
+/// (P_j^-1 P_i)^-1 (Q_j^-1 Q_i), measured by the norm of its translation and the angle of its
+/// rotation. That is the order in the benchmark's tool, whose figures these are; the paper's order
+/// gives the same angle, and a translation that differs by the rotation error times the motion.
+/// Pairs are made as the benchmark's tool makes them with a fixed delta: each pose i with
 /// the pose j nearest to i's stamp + delta; pairs whose j is the very last pose are dropped, for
 /// most of them end there only because nothing comes after it. The true pose is the nearest in
 /// time; where it is more than `max_time_difference` s away the pair is dropped. (The tool's own
