@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace mivo {
+
+/// The three topics of an RGB-D camera. A compressed topic carries its transport at the end of its
+/// name: /compressed or /compressedDepth.
+struct RgbdTopics {
+  std::string colour;
+  std::string depth;
+  std::string camera_info;
+};
+
+/// How a family of drivers and tools names its topics.
+struct BagLayout {
+  std::string name;  ///< tum, openni2, rtabmap, realsense
+  RgbdTopics topics;
+  bool float_depth;  ///< depth as 32FC1 in metres, otherwise 16UC1 in millimetres
+  bool rectified;    ///< the images have no distortion
+  std::string optical_frame;
+};
+
+/// The layouts that sequence_to_bag writes; the first topics of each are looked for in bags.
+const std::vector<BagLayout>& bagLayouts();
+
+/// Throws Error, listing the layouts, for an unknown name.
+const BagLayout& bagLayout(const std::string& name);
+
+/// Topics of a bag and their types, e.g. "sensor_msgs/Image".
+using BagContents = std::map<std::string, std::string>;
+
+/// Fills in what is empty in `wanted`: the first known pair of colour and depth topics that the bag
+/// holds, raw or compressed, and the camera_info beside the colour topic. Throws Error, listing the
+/// image topics of the bag, when nothing fits or a wanted topic is not there.
+RgbdTopics findTopics(const BagContents& contents, const RgbdTopics& wanted);
+
+}  // namespace mivo

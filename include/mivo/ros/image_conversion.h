@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <sensor_msgs/CompressedImage.h>
+#include <sensor_msgs/Image.h>
+
+#include <opencv2/core/mat.hpp>
+
+namespace mivo {
+
+/// Depth as Frame takes it.
+struct DepthImage {
+  cv::Mat image;        ///< CV_16UC1 in `unit`, or CV_32FC1 in metres
+  double unit = 0.001;  ///< metres per step of a CV_16UC1 image
+};
+
+/// Grey image of a colour message: mono8, 8UC1, mono16, rgb8, bgr8, rgba8, bgra8, bayer_*8, yuv422.
+/// A mono8 image is not copied: the result refers to the message's pixels and must not outlive
+/// them. Throws Error, with the remedy, for another encoding or a message whose sizes contradict
+/// each other.
+cv::Mat toGreyImage(const sensor_msgs::Image& message);
+
+/// Depth of a message: 16UC1 or mono16 in millimetres, 32FC1 in metres, both byte orders. The
+/// result refers to the message's pixels when they are in this machine's byte order. Throws Error.
+DepthImage toDepthImage(const sensor_msgs::Image& message);
+
+/// Grey image of a JPEG or PNG message of the transport "compressed". Throws Error.
+cv::Mat toGreyImage(const sensor_msgs::CompressedImage& message);
+
+/// Depth of a message of the transport "compressedDepth" (PNG, 16UC1 or 32FC1), or of a 16-bit PNG
+/// of the transport "compressed". Throws Error.
+DepthImage toDepthImage(const sensor_msgs::CompressedImage& message);
+
+}  // namespace mivo

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mivo/ros/bag_source.h"
+
+#include <rosbag/view.h>
+#include <sensor_msgs/CameraInfo.h>
+
+#include <algorithm>
+
+#include "header_only.h"
+#include "mivo/core/association.h"
+#include "mivo/core/error.h"
+#include "mivo/ros/camera_conversion.h"
+#include "mivo/ros/stamp.h"
+
+namespace mivo {
+namespace {
+
+constexpr double kMaxPairDifference = 0.02;  // s, as for sequence folders
+
+void open(rosbag::Bag& bag, const std::string& path) {
+  try {
+    bag.open(path, rosbag::bagmode::Read);
+  } catch (const rosbag::BagUnindexedException&) {
+    throw Error(path + " has no index, its recording was interrupted; run: rosbag reindex " + path);
+  } catch (const std::exception& error) {
+    throw Error(path + " cannot be read as a bag: " + error.what());
+  }
+}
+
+BagContents contentsOf(const rosbag::Bag& bag) {
+  BagContents contents;
+  rosbag::View view(bag);
+  for (const rosbag::ConnectionInfo* connection : view.getConnections()) {
+    contents[connection->topic] = connection->datatype;
+  }
+  return contents;
+}
+
+std::vector<double> stampsOf(const std::vector<BagSource::Message>& messages) {
+  std::vector<double> stamps;
+  for (const BagSource::Message& message : messages) stamps.push_back(message.stamp);
+  return stamps;
+}
+
+template <typename Message>
+boost::shared_ptr<const Message> read(const rosbag::MessageInstance& instance) {
+  boost::shared_ptr<const Message> message = instance.instantiate<Message>();
+  if (!message) {
+    throw Error("the message is a " + instance.getDataType() + ", not a " +
+                ros::message_traits::DataType<Message>::value());
+  }
+  return message;
+}
+
+}  // namespace
+
+bool isCompressed(const rosbag::MessageInstance& message) {
+  return message.getDataType() ==
+         ros::message_traits::DataType<sensor_msgs::CompressedImage>::value();
+}
+
+BagSource::BagSource(const std::string& path, const RgbdTopics& wanted, const FrameRange& range)
+    : path_(path) {
+  open(bag_, path);
+  try {
+    topics_ = findTopics(contentsOf(bag_), wanted);
+    readCamera();
+    findPairs(range);
+  } catch (const std::exception& error) {
+    throw Error(path + ": " + error.what());
+  }
+}
+
+void BagSource::readCamera() {
+  rosbag::View view(bag_, rosbag::TopicQuery(topics_.camera_info));
+  for (const rosbag::MessageInstance& instance : view) {
+    camera_ = toCamera(*read<sensor_msgs::CameraInfo>(instance), isRectifiedTopic(topics_.colour));
+    return;
+  }
+  throw Error("there is no message on the topic " + topics_.camera_info);
+}
+
+std::vector<BagSource::Message> BagSource::readIndex(const std::string& topic) const {
+  rosbag::View view(bag_, rosbag::TopicQuery(topic));
+  std::vector<rosbag::MessageInstance> instances(view.begin(), view.end());
+  std::vector<std::pair<double, std::size_t>>
+      order;  // instances cannot be assigned, thus not sorted
+  for (std::size_t i = 0; i < instances.size(); ++i) {
+    order.emplace_back(toSeconds(read<HeaderOnly>(instances[i])->header.stamp), i);
+  }
+  std::sort(order.begin(), order.end());
+  std::vector<Message> messages;
+  messages.reserve(order.size());
+  for (const auto& [stamp, index] : order) messages.push_back({stamp, instances[index]});
+  return messages;
+}
+
+void BagSource::findPairs(const FrameRange& range) {
+  const std::vector<Message> colours = readIndex(topics_.colour);
+  const std::vector<Message> depths = readIndex(topics_.depth);
+  for (const auto& [i, j] : associate(stampsOf(colours), stampsOf(depths), kMaxPairDifference)) {
+    pairs_.push_back({colours[i], depths[j]});
+  }
+  if (pairs_.empty()) {
+    throw Error("no depth image is within 20 ms of a colour image (" +
+                std::to_string(colours.size()) + " colour images on " + topics_.colour + ", " +
+                std::to_string(depths.size()) + " depth images on " + topics_.depth + ")");
+  }
+  if (range.count == 0 || range.start >= pairs_.size()) {
+    throw Error("no frame left: there are " + std::to_string(pairs_.size()) +
+                ", numbered from 0, and frames from " + std::to_string(range.start) +
+                " on were asked for");
+  }
+  const std::size_t end = range.start + std::min(range.count, pairs_.size() - range.start);
+  // MessageInstance cannot be assigned: the part is copied, not erased from the whole.
+  pairs_ = std::vector<Pair>(pairs_.begin() + static_cast<std::ptrdiff_t>(range.start),
+                             pairs_.begin() + static_cast<std::ptrdiff_t>(end));
+}
+
+FrameSource::Status BagSource::next(Frame& frame, std::string& fault) {
+  fault.clear();
+  if (next_ >= pairs_.size()) return Status::kEnd;
+  const Pair& pair = pairs_[next_++];
+  try {
+    Frame read_frame;
+    read_frame.stamp = pair.colour.stamp;
+    if (isCompressed(pair.colour.instance)) {
+      read_frame.image = toGreyImage(*read<sensor_msgs::CompressedImage>(pair.colour.instance));
+    } else {
+      colour_ = read<sensor_msgs::Image>(pair.colour.instance);
+      read_frame.image = toGreyImage(*colour_);
+    }
+    DepthImage depth;
+    if (isCompressed(pair.depth.instance)) {
+      depth = toDepthImage(*read<sensor_msgs::CompressedImage>(pair.depth.instance));
+    } else {
+      depth_ = read<sensor_msgs::Image>(pair.depth.instance);
+      depth = toDepthImage(*depth_);
+    }
+    read_frame.depth = depth.image;
+    read_frame.depth_unit = depth.unit;
+    fault = findFault(read_frame, camera_);
+    frame = read_frame;
+  } catch (const std::exception& error) {
+    fault = error.what();
+  }
+  if (fault.empty()) return Status::kFrame;
+  fault = path_ + ", frame of stamp " + std::to_string(pair.colour.stamp) + ": " + fault;
+  return Status::kSkipped;
+}
+
+}  // namespace mivo

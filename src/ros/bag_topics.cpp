@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mivo/ros/bag_topics.h"
+
+#include <algorithm>
+#include <array>
+
+#include "mivo/core/error.h"
+#include "mivo/ros/topics.h"
+
+namespace mivo {
+namespace {
+
+constexpr char kImageType[] = "sensor_msgs/Image";
+constexpr char kCompressedType[] = "sensor_msgs/CompressedImage";
+constexpr char kCameraInfoType[] = "sensor_msgs/CameraInfo";
+
+struct Pair {
+  const char* colour;
+  const char* depth;
+};
+
+// Pairs of topics that are looked for, in this order: what is registered and unambiguous first.
+constexpr Pair kKnownPairs[] = {
+    {"/camera/rgb/image_color", "/camera/depth/image"},
+    {"/camera/rgb/image_rect_color", "/camera/depth_registered/image_raw"},
+    {"/camera/rgb/image_rect_color", "/camera/depth_registered/image_rect"},
+    {"/camera/rgb/image_rect_color", "/camera/depth_registered/hw_registered/image_rect_raw"},
+    {"/camera/rgb/image_color", "/camera/depth_registered/image_raw"},
+    {"/camera/rgb/image_raw", "/camera/depth_registered/image_raw"},
+    {"/camera/rgb/image_raw", "/camera/depth_registered/image"},
+    {"/camera/rgb/image_raw", "/camera/depth_registered/hw_registered/image_rect_raw"},
+    {"/camera/rgb/image_rect_mono", "/camera/depth_registered/image_raw"},
+    {"/camera/color/image_raw", "/camera/aligned_depth_to_color/image_raw"},
+    {"/camera/color/image_rect_color", "/camera/aligned_depth_to_color/image_raw"},
+    {"/rgb/image_raw", "/depth_to_rgb/image_raw"},
+    {"/rgb/image_rect_color", "/depth_registered/image_raw"},
+    {"/camera/data_throttled_image", "/camera/data_throttled_image_depth"},
+    {"/data_throttled_image", "/data_throttled_image_depth"},
+};
+
+constexpr std::array<const char*, 3> kTransports = {"", "/compressed", "/compressedDepth"};
+
+bool isImage(const BagContents& contents, const std::string& topic) {
+  const auto entry = contents.find(topic);
+  return entry != contents.end() &&
+         (entry->second == kImageType || entry->second == kCompressedType);
+}
+
+/// The topic itself or a compressed form of it; empty when the bag has neither.
+std::string findImage(const BagContents& contents, const std::string& topic) {
+  for (const char* transport : kTransports) {
+    if (isImage(contents, topic + transport)) return topic + transport;
+  }
+  return {};
+}
+
+std::string withoutTransport(const std::string& topic) {
+  for (const std::string transport : kTransports) {
+    if (!transport.empty() && topic.size() > transport.size() &&
+        topic.compare(topic.size() - transport.size(), transport.size(), transport) == 0) {
+      return topic.substr(0, topic.size() - transport.size());
+    }
+  }
+  return topic;
+}
+
+/// Where drivers and tools put the calibration of a colour topic.
+std::string findCameraInfo(const BagContents& contents, const std::string& colour) {
+  const std::string base = withoutTransport(colour);
+  std::string throttled = base;
+  const std::string image = "_image";
+  const std::size_t at = throttled.rfind(image);
+  if (at != std::string::npos) throttled.replace(at, image.size(), "_camera_info");
+  for (const std::string& topic :
+       {base.substr(0, base.rfind('/') + 1) + "camera_info", throttled}) {
+    const auto entry = contents.find(topic);
+    if (entry != contents.end() && entry->second == kCameraInfoType) return topic;
+  }
+  return {};
+}
+
+std::string listTopics(const BagContents& contents) {
+  std::string list;
+  for (const auto& [topic, type] : contents) {
+    if (type == kImageType || type == kCompressedType || type == kCameraInfoType) {
+      list += (list.empty() ? "" : ", ") + topic;
+    }
+  }
+  return list.empty() ? "none" : list;
+}
+
+[[noreturn]] void refuse(const BagContents& contents, const std::string& what) {
+  throw Error(what + "; image and camera_info topics of the bag: " + listTopics(contents));
+}
+
+}  // namespace
+
+const std::vector<BagLayout>& bagLayouts() {
+  static const std::vector<BagLayout> layouts = {
+      {"tum",
+       {"/camera/rgb/image_color", "/camera/depth/image", "/camera/rgb/camera_info"},
+       true,
+       false,
+       "openni_rgb_optical_frame"},
+      {"openni2",
+       {"/camera/rgb/image_raw", "/camera/depth_registered/image_raw", "/camera/rgb/camera_info"},
+       false,
+       false,
+       frames::kColourOptical},
+      {"rtabmap",
+       {"/camera/rgb/image_rect_color", "/camera/depth_registered/image_raw",
+        "/camera/rgb/camera_info"},
+       false,
+       true,
+       frames::kColourOptical},
+      {"realsense",
+       {"/camera/color/image_raw", "/camera/aligned_depth_to_color/image_raw",
+        "/camera/color/camera_info"},
+       false,
+       false,
+       "camera_color_optical_frame"},
+  };
+  return layouts;
+}
+
+const BagLayout& bagLayout(const std::string& name) {
+  std::string known;
+  for (const BagLayout& layout : bagLayouts()) {
+    if (layout.name == name) return layout;
+    known += ' ' + layout.name;
+  }
+  throw Error("unknown layout '" + name + "', expected one of" + known);
+}
+
+RgbdTopics findTopics(const BagContents& contents, const RgbdTopics& wanted) {
+  for (const std::string& topic : {wanted.colour, wanted.depth}) {
+    if (!topic.empty() && !isImage(contents, topic)) {
+      refuse(contents, "the bag has no images on the topic " + topic);
+    }
+  }
+  RgbdTopics topics = wanted;
+  for (const Pair& pair : kKnownPairs) {
+    if (!topics.colour.empty() && !topics.depth.empty()) break;
+    const std::string colour =
+        wanted.colour.empty() ? findImage(contents, pair.colour) : wanted.colour;
+    const std::string depth = wanted.depth.empty() ? findImage(contents, pair.depth) : wanted.depth;
+    if (colour.empty() || depth.empty()) continue;
+    // A colour topic of the user's choice goes with the depth topic of its own driver first.
+    if (!wanted.colour.empty() && withoutTransport(wanted.colour) != pair.colour &&
+        std::any_of(std::begin(kKnownPairs), std::end(kKnownPairs), [&](const Pair& other) {
+          return withoutTransport(wanted.colour) == other.colour &&
+                 !findImage(contents, other.depth).empty();
+        })) {
+      continue;
+    }
+    topics.colour = colour;
+    topics.depth = depth;
+  }
+  if (topics.colour.empty() || topics.depth.empty()) {
+    refuse(contents,
+           "no known pair of colour and registered depth topics; name them with --rgb and "
+           "--depth");
+  }
+  if (topics.camera_info.empty()) topics.camera_info = findCameraInfo(contents, topics.colour);
+  const auto info = contents.find(topics.camera_info);
+  if (info == contents.end() || info->second != kCameraInfoType) {
+    refuse(contents, topics.camera_info.empty()
+                         ? "no camera_info beside " + topics.colour + "; name it with --camera-info"
+                         : "the bag has no camera_info on the topic " + topics.camera_info);
+  }
+  return topics;
+}
+
+}  // namespace mivo

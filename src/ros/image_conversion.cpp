@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mivo/ros/image_conversion.h"
+
+#include <cv_bridge/cv_bridge.h>
+#include <sensor_msgs/image_encodings.h>
+
+#include <string>
+
+#include "mivo/core/error.h"
+#include "mivo/core/frame.h"
+
+namespace mivo {
+namespace {
+
+namespace encodings = sensor_msgs::image_encodings;
+
+constexpr double kMillimetre = 0.001;
+
+[[noreturn]] void refuse(const std::string& what) {
+  throw Error(what);
+}
+
+/// Bytes of one pixel. yuv422 has two channels in OpenCV and in ROS.
+std::size_t bytesPerPixel(const std::string& encoding) {
+  if (encoding == encodings::YUV422) return 2;
+  return static_cast<std::size_t>(encodings::numChannels(encoding)) *
+         static_cast<std::size_t>(encodings::bitDepth(encoding)) / 8;
+}
+
+/// Sizes that contradict each other would make every reader run out of the message.
+void checkSizes(const sensor_msgs::Image& message) {
+  if (message.width == 0 || message.height == 0) refuse("the image message is empty");
+  const std::size_t row = message.width * bytesPerPixel(message.encoding);
+  if (message.step < row) {
+    refuse("the image message has a step of " + std::to_string(message.step) + " bytes, but " +
+           std::to_string(message.width) + " pixels of " + message.encoding + " need " +
+           std::to_string(row));
+  }
+  const std::size_t size = static_cast<std::size_t>(message.step) * message.height;
+  if (message.data.size() != size) {
+    refuse("the image message holds " + std::to_string(message.data.size()) +
+           " bytes, but its step and height make " + std::to_string(size));
+  }
+}
+
+/// The pixels, converted only when `target` names another encoding or the byte order is foreign.
+cv::Mat pixels(const sensor_msgs::Image& message, const std::string& target = {}) {
+  try {
+    return cv_bridge::toCvShare(message, boost::shared_ptr<void const>(), target)->image;
+  } catch (const std::exception& error) {
+    refuse("image of encoding " + message.encoding + ": " + error.what());
+  }
+}
+
+}  // namespace
+
+cv::Mat toGreyImage(const sensor_msgs::Image& message) {
+  const std::string& encoding = message.encoding;
+  const bool grey = encoding == encodings::MONO8 || encoding == encodings::TYPE_8UC1 ||
+                    encoding == encodings::MONO16;
+  const bool rgb = encoding == encodings::RGB8 || encoding == encodings::RGBA8;
+  const bool bgr = encoding == encodings::BGR8 || encoding == encodings::BGRA8;
+  const bool mosaic = encodings::isBayer(encoding) && encodings::bitDepth(encoding) == 8;
+  if (!grey && !rgb && !bgr && !mosaic && encoding != encodings::YUV422) {
+    refuse("colour image of encoding '" + encoding +
+           "': expected mono8, mono16, rgb8, bgr8, rgba8, bgra8, bayer_*8 or yuv422; is another "
+           "topic connected to "
+           "rgb/image?");
+  }
+  checkSizes(message);
+  if (grey || rgb || bgr) {
+    return toGrey(pixels(message), rgb ? ChannelOrder::kRgb : ChannelOrder::kBgr);
+  }
+  return toGrey(pixels(message, encodings::BGR8), ChannelOrder::kBgr);
+}
+
+DepthImage toDepthImage(const sensor_msgs::Image& message) {
+  const std::string& encoding = message.encoding;
+  const bool integers = encoding == encodings::TYPE_16UC1 || encoding == encodings::MONO16;
+  if (!integers && encoding != encodings::TYPE_32FC1) {
+    refuse("depth image of encoding '" + encoding +
+           "': expected 16UC1 (millimetres) or 32FC1 (metres); is another topic connected to "
+           "depth/image?");
+  }
+  checkSizes(message);
+  return {pixels(message), kMillimetre};
+}
+
+}  // namespace mivo

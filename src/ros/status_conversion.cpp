@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mivo/ros/status_conversion.h"
+
+namespace mivo {
+namespace {
+
+// The codes are part of the message's definition: they stay what they are when the core changes.
+std::uint8_t code(TrackingState state) {
+  switch (state) {
+    case TrackingState::kInitialising:
+      return TrackingStatus::INITIALISING;
+    case TrackingState::kTracking:
+      return TrackingStatus::TRACKING;
+    case TrackingState::kDegraded:
+      return TrackingStatus::DEGRADED;
+    case TrackingState::kLost:
+      break;
+  }
+  return TrackingStatus::LOST;
+}
+
+std::uint8_t code(TrackingReason reason) {
+  switch (reason) {
+    case TrackingReason::kNone:
+      return TrackingStatus::REASON_NONE;
+    case TrackingReason::kInvalidFrame:
+      return TrackingStatus::REASON_INVALID_FRAME;
+    case TrackingReason::kTooFewPoints:
+      return TrackingStatus::REASON_TOO_FEW_POINTS;
+    case TrackingReason::kNoOverlap:
+      return TrackingStatus::REASON_NO_OVERLAP;
+    case TrackingReason::kSingular:
+      return TrackingStatus::REASON_SINGULAR;
+    case TrackingReason::kImplausibleMotion:
+      return TrackingStatus::REASON_IMPLAUSIBLE_MOTION;
+    case TrackingReason::kNotFinite:
+      break;
+  }
+  return TrackingStatus::REASON_NOT_FINITE;
+}
+
+LevelStatus toMessage(const LevelRecord& record) {
+  LevelStatus message;
+  message.level = record.level;
+  message.points = record.points;
+  message.visible = record.visible;
+  message.iterations = record.iterations;
+  message.evaluations = record.evaluations;
+  message.mutual_information = record.mutual_information;
+  message.cost = record.cost;
+  message.cpu_ms = record.milliseconds;
+  message.line_search_cpu_ms = record.line_search_milliseconds;
+  return message;
+}
+
+}  // namespace
+
+TrackingStatus toMessage(const TrackingResult& result) {
+  TrackingStatus message;
+  message.state = code(result.state);
+  message.state_text = toString(result.state);
+  message.reason = code(result.reason);
+  message.reason_text = toString(result.reason);
+  message.keyframe = result.keyframe;
+  message.new_keyframe = result.new_keyframe;
+  message.keyframes = result.keyframes;
+  message.segment = result.segment;
+  message.points = result.points;
+  message.overlap = result.overlap;
+  message.mutual_information = result.mutual_information;
+  message.residual_scale = result.residual_scale;
+  for (int i = 0; i < result.num_levels; ++i) {
+    message.levels.push_back(toMessage(result.levels[static_cast<std::size_t>(i)]));
+  }
+  message.pyramid_cpu_ms = result.milliseconds.pyramid;
+  message.tracking_cpu_ms = result.milliseconds.tracking;
+  message.keyframe_cpu_ms = result.milliseconds.keyframe;
+  message.total_cpu_ms = result.milliseconds.total;
+  return message;
+}
+
+}  // namespace mivo
