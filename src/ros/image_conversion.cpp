@@ -4,6 +4,7 @@
 #include <cv_bridge/cv_bridge.h>
 #include <sensor_msgs/image_encodings.h>
 
+#include <algorithm>
 #include <string>
 
 #include "mivo/core/error.h"
@@ -43,9 +44,32 @@ void checkSizes(const sensor_msgs::Image& message) {
   }
 }
 
+bool isForeignByteOrder(const sensor_msgs::Image& message) {
+  const std::uint16_t one = 1;
+  const bool little_endian = *reinterpret_cast<const std::uint8_t*>(&one) == 1;
+  return (message.is_bigendian != 0) == little_endian;
+}
+
+/// The pixels in this machine's byte order. cv_bridge swaps the bytes but loses the type.
+cv::Mat swapped(const sensor_msgs::Image& message, int type) {
+  cv::Mat image(static_cast<int>(message.height), static_cast<int>(message.width), type);
+  const std::size_t bytes = image.elemSize1();
+  for (int y = 0; y < image.rows; ++y) {
+    const std::uint8_t* from = message.data.data() + static_cast<std::size_t>(y) * message.step;
+    std::uint8_t* to = image.ptr(y);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(image.cols) * image.elemSize();
+         i += bytes) {
+      std::reverse_copy(from + i, from + i + bytes, to + i);
+    }
+  }
+  return image;
+}
+
 /// The pixels, converted only when `target` names another encoding or the byte order is foreign.
 cv::Mat pixels(const sensor_msgs::Image& message, const std::string& target = {}) {
   try {
+    const int type = cv_bridge::getCvType(message.encoding);
+    if (CV_ELEM_SIZE1(type) > 1 && isForeignByteOrder(message)) return swapped(message, type);
     return cv_bridge::toCvShare(message, boost::shared_ptr<void const>(), target)->image;
   } catch (const std::exception& error) {
     refuse("image of encoding " + message.encoding + ": " + error.what());

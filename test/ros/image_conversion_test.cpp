@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mivo/ros/image_conversion.h"
+
+#include <gtest/gtest.h>
+#include <sensor_msgs/image_encodings.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "mivo/core/error.h"
+#include "mivo/core/frame.h"
+#include "ros/expect_error.h"
+
+namespace mivo {
+namespace {
+
+namespace encodings = sensor_msgs::image_encodings;
+
+constexpr int kWidth = 6;
+constexpr int kHeight = 4;
+
+sensor_msgs::Image makeMessage(const cv::Mat& image, const std::string& encoding) {
+  sensor_msgs::Image message;
+  message.width = static_cast<std::uint32_t>(image.cols);
+  message.height = static_cast<std::uint32_t>(image.rows);
+  message.encoding = encoding;
+  message.step = static_cast<std::uint32_t>(image.step);
+  message.data.assign(image.data, image.data + image.step * static_cast<std::size_t>(image.rows));
+  return message;
+}
+
+/// An image whose channels and pixels all differ.
+cv::Mat pattern(int type) {
+  cv::Mat image(kHeight, kWidth, type);
+  std::uint8_t value = 7;
+  for (int y = 0; y < kHeight; ++y) {
+    for (std::size_t i = 0; i < kWidth * image.elemSize(); ++i) {
+      image.ptr(y)[i] = value;
+      value = static_cast<std::uint8_t>(value * 5 + 13);
+    }
+  }
+  return image;
+}
+
+bool equal(const cv::Mat& a, const cv::Mat& b) {
+  return a.type() == b.type() && a.size() == b.size() && cv::norm(a, b, cv::NORM_INF) == 0.0;
+}
+
+TEST(ToGreyImageTest, Mono8IsNotCopied) {
+  const sensor_msgs::Image message = makeMessage(pattern(CV_8UC1), encodings::MONO8);
+  EXPECT_EQ(message.data.data(), toGreyImage(message).data);
+}
+
+TEST(ToGreyImageTest, ColourEncodingsGiveTheGreyOfTheirOrder) {
+  const cv::Mat three = pattern(CV_8UC3);
+  const cv::Mat four = pattern(CV_8UC4);
+  EXPECT_TRUE(
+      equal(toGrey(three, ChannelOrder::kRgb), toGreyImage(makeMessage(three, encodings::RGB8))));
+  EXPECT_TRUE(
+      equal(toGrey(three, ChannelOrder::kBgr), toGreyImage(makeMessage(three, encodings::BGR8))));
+  EXPECT_TRUE(
+      equal(toGrey(four, ChannelOrder::kRgb), toGreyImage(makeMessage(four, encodings::RGBA8))));
+  EXPECT_TRUE(
+      equal(toGrey(four, ChannelOrder::kBgr), toGreyImage(makeMessage(four, encodings::BGRA8))));
+  // The two orders differ, so that a mix-up cannot pass.
+  EXPECT_FALSE(equal(toGrey(three, ChannelOrder::kRgb), toGrey(three, ChannelOrder::kBgr)));
+}
+
+TEST(ToGreyImageTest, PureRedIsDarkerThanPureGreen) {
+  const cv::Mat red(kHeight, kWidth, CV_8UC3, cv::Scalar(255, 0, 0));
+  EXPECT_EQ(76, toGreyImage(makeMessage(red, encodings::RGB8)).at<std::uint8_t>(0, 0));  // 0.299
+  EXPECT_EQ(29, toGreyImage(makeMessage(red, encodings::BGR8)).at<std::uint8_t>(0, 0));  // 0.114
+}
+
+TEST(ToGreyImageTest, MosaicOfOneColourBecomesItsGrey) {
+  // A red surface: only the red cells of the mosaic are lit.
+  for (const auto& [encoding, x, y] :
+       {std::tuple(encodings::BAYER_RGGB8, 0, 0), std::tuple(encodings::BAYER_BGGR8, 1, 1),
+        std::tuple(encodings::BAYER_GRBG8, 1, 0), std::tuple(encodings::BAYER_GBRG8, 0, 1)}) {
+    cv::Mat mosaic = cv::Mat::zeros(16, 16, CV_8UC1);
+    for (int v = y; v < 16; v += 2) {
+      for (int u = x; u < 16; u += 2) mosaic.at<std::uint8_t>(v, u) = 200;
+    }
+    const cv::Mat grey = toGreyImage(makeMessage(mosaic, encoding));
+    EXPECT_NEAR(0.299 * 200, grey.at<std::uint8_t>(8, 8), 1.0) << encoding;
+  }
+}
+
+TEST(ToGreyImageTest, Yuv422OfGreyKeepsItsBrightness) {
+  cv::Mat uyvy(kHeight, kWidth, CV_8UC2, cv::Scalar(128, 180));  // U or V, then Y
+  const int grey = toGreyImage(makeMessage(uyvy, encodings::YUV422)).at<std::uint8_t>(1, 1);
+  EXPECT_NEAR((180 - 16) * 255.0 / 219.0, grey, 2.0);  // video range
+}
+
+TEST(ToGreyImageTest, Mono16OfBothByteOrdersGivesTheHighByte) {
+  cv::Mat image(kHeight, kWidth, CV_16UC1, cv::Scalar(0x4020));
+  EXPECT_EQ(64, toGreyImage(makeMessage(image, encodings::MONO16)).at<std::uint8_t>(0, 0));
+  cv::Mat swapped(kHeight, kWidth, CV_16UC1, cv::Scalar(0x2040));
+  sensor_msgs::Image message = makeMessage(swapped, encodings::MONO16);
+  message.is_bigendian = 1;
+  EXPECT_EQ(64, toGreyImage(message).at<std::uint8_t>(0, 0));
+}
+
+TEST(ToGreyImageTest, RowsMayBePadded) {
+  const cv::Mat wide = pattern(CV_8UC3);
+  const cv::Mat part = wide.colRange(0, kWidth - 2);
+  sensor_msgs::Image message = makeMessage(wide, encodings::BGR8);
+  message.width = kWidth - 2;  // the step stays that of the wide image
+  EXPECT_TRUE(equal(toGrey(part.clone(), ChannelOrder::kBgr), toGreyImage(message)));
+}
+
+TEST(ToGreyImageTest, WrongEncodingIsRefusedByName) {
+  const cv::Mat depth(kHeight, kWidth, CV_16UC1, cv::Scalar(1000));
+  EXPECT_ERROR(toGreyImage(makeMessage(depth, encodings::TYPE_16UC1)), "'16UC1'");
+  EXPECT_ERROR(toGreyImage(makeMessage(depth, "nonsense")), "'nonsense'");
+}
+
+TEST(ToGreyImageTest, SizesThatContradictEachOtherAreRefused) {
+  sensor_msgs::Image message = makeMessage(pattern(CV_8UC3), encodings::RGB8);
+  message.step = 17;
+  EXPECT_ERROR(toGreyImage(message), "step of 17 bytes");
+  message = makeMessage(pattern(CV_8UC3), encodings::RGB8);
+  message.data.pop_back();
+  EXPECT_ERROR(toGreyImage(message), "holds 71 bytes");
+  message = makeMessage(pattern(CV_8UC1), encodings::MONO8);
+  message.height = 0;
+  EXPECT_ERROR(toGreyImage(message), "empty");
+}
+
+TEST(ToDepthImageTest, IntegersAreMillimetresAndNotCopied) {
+  const cv::Mat image = pattern(CV_16UC1);
+  for (const char* encoding : {"16UC1", "mono16"}) {
+    const sensor_msgs::Image message = makeMessage(image, encoding);
+    const DepthImage depth = toDepthImage(message);
+    EXPECT_TRUE(equal(image, depth.image));
+    EXPECT_EQ(message.data.data(), depth.image.data);
+    EXPECT_EQ(0.001, depth.unit);
+  }
+}
+
+TEST(ToDepthImageTest, ForeignByteOrderIsSwapped) {
+  cv::Mat image(kHeight, kWidth, CV_16UC1, cv::Scalar(0xE803));  // 1000 with its bytes swapped
+  sensor_msgs::Image message = makeMessage(image, "16UC1");
+  message.is_bigendian = 1;
+  ASSERT_EQ(CV_16UC1, toDepthImage(message).image.type());
+  EXPECT_EQ(1000, toDepthImage(message).image.at<std::uint16_t>(2, 3));
+
+  const float metres = 1.25F;
+  cv::Mat floats(kHeight, kWidth, CV_32FC1);
+  std::uint8_t bytes[4];
+  std::memcpy(bytes, &metres, 4);
+  std::reverse(bytes, bytes + 4);
+  for (int i = 0; i < kWidth * kHeight; ++i) std::memcpy(floats.data + 4 * i, bytes, 4);
+  message = makeMessage(floats, "32FC1");
+  message.is_bigendian = 1;
+  ASSERT_EQ(CV_32FC1, toDepthImage(message).image.type());
+  EXPECT_EQ(1.25F, toDepthImage(message).image.at<float>(2, 3));
+}
+
+TEST(ToDepthImageTest, FloatsAreMetres) {
+  cv::Mat image(kHeight, kWidth, CV_32FC1, cv::Scalar(2.5));
+  EXPECT_EQ(2.5F, toDepthImage(makeMessage(image, "32FC1")).image.at<float>(0, 0));
+}
+
+TEST(ToDepthImageTest, ColourIsRefusedByName) {
+  EXPECT_ERROR(toDepthImage(makeMessage(pattern(CV_8UC3), "rgb8")), "'rgb8'");
+}
+
+sensor_msgs::CompressedImage compress(const cv::Mat& image, const char* extension,
+                                      const std::string& format, std::size_t header = 0) {
+  sensor_msgs::CompressedImage message;
+  message.format = format;
+  std::vector<std::uint8_t> bytes;
+  cv::imencode(extension, image, bytes);
+  message.data.assign(header, 0);
+  message.data.insert(message.data.end(), bytes.begin(), bytes.end());
+  return message;
+}
+
+TEST(CompressedImageTest, PngGivesTheBitsOfTheRawMessage) {
+  const cv::Mat bgr = pattern(CV_8UC3);
+  const cv::Mat expected = toGrey(bgr, ChannelOrder::kBgr);
+  EXPECT_TRUE(equal(expected, toGreyImage(compress(bgr, ".png", "rgb8; png compressed bgr8"))));
+  EXPECT_TRUE(equal(expected, toGreyImage(compress(bgr, ".png", "png"))));
+  // Encoded as if blue came first although red did.
+  EXPECT_TRUE(equal(toGrey(bgr, ChannelOrder::kRgb),
+                    toGreyImage(compress(bgr, ".png", "rgb8; png compressed rgb8"))));
+  const cv::Mat grey = pattern(CV_8UC1);
+  EXPECT_TRUE(equal(grey, toGreyImage(compress(grey, ".png", "mono8; png compressed "))));
+}
+
+TEST(CompressedImageTest, JpegIsCloseToTheOriginal) {
+  const cv::Mat smooth(48, 64, CV_8UC3, cv::Scalar(40, 90, 200));
+  const cv::Mat grey = toGreyImage(compress(smooth, ".jpg", "rgb8; jpeg compressed bgr8"));
+  EXPECT_LE(cv::norm(grey, toGrey(smooth, ChannelOrder::kBgr), cv::NORM_INF), 3.0);
+}
+
+TEST(CompressedImageTest, DepthPngWithAndWithoutHeaderIsExact) {
+  const cv::Mat depth = pattern(CV_16UC1);
+  EXPECT_TRUE(
+      equal(depth, toDepthImage(compress(depth, ".png", "16UC1; compressedDepth", 12)).image));
+  EXPECT_TRUE(equal(depth, toDepthImage(compress(depth, ".png", "16UC1; png compressed ")).image));
+}
+
+TEST(CompressedImageTest, QuantisedInverseDepthBecomesMetres) {
+  cv::Mat quantised(kHeight, kWidth, CV_16UC1, cv::Scalar(600));
+  quantised.at<std::uint16_t>(0, 0) = 0;
+  sensor_msgs::CompressedImage message =
+      compress(quantised, ".png", "32FC1; compressedDepth png", 12);
+  const float a = 1010.0F;
+  const float b = -405.0F;
+  std::memcpy(message.data.data() + 4, &a, 4);
+  std::memcpy(message.data.data() + 8, &b, 4);
+  const DepthImage depth = toDepthImage(message);
+  ASSERT_EQ(CV_32FC1, depth.image.type());
+  EXPECT_FLOAT_EQ(1010.0F / 1005.0F, depth.image.at<float>(1, 1));
+  EXPECT_TRUE(std::isnan(depth.image.at<float>(0, 0)));
+}
+
+TEST(CompressedImageTest, TruncatedAndForeignDataAreRefused) {
+  const cv::Mat large(64, 64, CV_8UC3, cv::Scalar(1, 2, 3));
+  sensor_msgs::CompressedImage message = compress(large, ".png", "rgb8; png compressed bgr8");
+  message.data.resize(message.data.size() / 2);
+  EXPECT_ERROR(toGreyImage(message), "truncated");
+  message = compress(large, ".jpg", "jpeg");
+  message.data.resize(message.data.size() - 40);
+  EXPECT_ERROR(toGreyImage(message), "truncated");
+  message.data.assign(100, 0);
+  EXPECT_ERROR(toGreyImage(message), "neither JPEG nor PNG");
+  message.data.clear();
+  EXPECT_ERROR(toGreyImage(message), "neither JPEG nor PNG");
+  message.format = "16UC1; compressedDepth rvl";
+  EXPECT_ERROR(toDepthImage(message), "RVL");
+  EXPECT_ERROR(toDepthImage(compress(large, ".png", "16UC1; compressedDepth", 12)),
+               "has not 16 bits");
+}
+
+}  // namespace
+}  // namespace mivo
