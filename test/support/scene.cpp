@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "support/scene.h"
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "support/random_pose.h"
+
+namespace mivo::testing {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+constexpr int kWaves = 14;
+
+/// A sum of plane waves of 0.07 to 1 m on a rectangle, at least five pixels long at 2 m, so that
+/// a pixel's centre stands for its area. The sum is bent so that the histogram is skewed.
+class Texture {
+ public:
+  explicit Texture(std::uint64_t seed) {
+    Random random(seed);
+    for (int i = 0; i < kWaves; ++i) {
+      const double length = 0.07 * std::pow(1.0 / 0.07, static_cast<double>(i) / (kWaves - 1));
+      const double angle = random.uniform(0.0, 2.0 * kPi);
+      Wave& wave = waves_[static_cast<std::size_t>(i)];
+      wave = {2.0 * kPi / length * std::cos(angle), 2.0 * kPi / length * std::sin(angle),
+              random.uniform(0.0, 2.0 * kPi), 0.5 + 0.5 * std::sqrt(length)};
+      sum_ += wave.amplitude;
+    }
+  }
+
+  /// Brightness 0..1 at a place on the rectangle, metres.
+  double operator()(double u, double v) const {
+    double value = 0.0;
+    for (const Wave& wave : waves_) {
+      value += wave.amplitude * std::sin(wave.u * u + wave.v * v + wave.phase);
+    }
+    const double t = 1.0 / (1.0 + std::exp(-10.0 * value / sum_));
+    return t * (0.4 + 0.6 * t);
+  }
+
+ private:
+  struct Wave {
+    double u;
+    double v;
+    double phase;
+    double amplitude;
+  };
+  std::array<Wave, kWaves> waves_{};
+  double sum_ = 0.0;
+};
+
+Rectangle facingCamera(const Eigen::Vector3d& centre, double half_width, double half_height,
+                       std::uint64_t texture) {
+  return {centre, Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(), half_width, half_height,
+          texture};
+}
+
+struct Hit {
+  double depth = 0.0;
+  double brightness = 0.0;
+};
+
+Hit castRay(const Scene& scene, const std::vector<Texture>& textures, const Eigen::Vector3d& origin,
+            const Eigen::Vector3d& direction) {
+  double nearest = std::numeric_limits<double>::infinity();
+  std::size_t index = 0;
+  Eigen::Vector2d place = Eigen::Vector2d::Zero();
+  for (std::size_t i = 0; i < scene.size(); ++i) {
+    const Rectangle& r = scene[i];
+    const Eigen::Vector3d normal = r.u.cross(r.v);
+    const double distance = normal.dot(r.centre - origin) / normal.dot(direction);
+    if (!(distance > 0.0 && distance < nearest)) continue;
+    const Eigen::Vector3d offset = origin + distance * direction - r.centre;
+    const Eigen::Vector2d at(r.u.dot(offset), r.v.dot(offset));
+    if (std::abs(at.x()) > r.half_width || std::abs(at.y()) > r.half_height) continue;
+    nearest = distance;
+    index = i;
+    place = at;
+  }
+  if (!std::isfinite(nearest)) return {};
+  return {nearest, textures[index](place.x(), place.y())};
+}
+
+unsigned char greyLevel(double value) {
+  return static_cast<unsigned char>(std::lround(std::min(std::max(value, 0.0), 255.0)));
+}
+
+}  // namespace
+
+Scene wallScene() {
+  return {facingCamera({0.0, 0.0, 2.0}, 4.0, 3.0, 11)};
+}
+
+Scene boardScene() {
+  return {facingCamera({0.0, 0.0, 2.0}, 4.0, 3.0, 11),
+          facingCamera({-0.15, 0.1, 1.5}, 0.35, 0.3, 12)};
+}
+
+Scene roomScene() {
+  const Eigen::Vector3d x = Eigen::Vector3d::UnitX();
+  const Eigen::Vector3d y = Eigen::Vector3d::UnitY();
+  const Eigen::Vector3d z = Eigen::Vector3d::UnitZ();
+  return {{{0.0, 0.0, 2.5}, x, y, 2.0, 1.5, 21},   {{0.0, 0.0, -2.5}, x, y, 2.0, 1.5, 22},
+          {{-2.0, 0.0, 0.0}, z, y, 2.5, 1.5, 23},  {{2.0, 0.0, 0.0}, z, y, 2.5, 1.5, 24},
+          {{0.0, -1.5, 0.0}, x, z, 2.0, 2.5, 25},  {{0.0, 1.5, 0.0}, x, z, 2.0, 2.5, 26},
+          {{-0.6, 0.3, 1.7}, x, y, 0.35, 0.3, 27}, {{0.7, -0.2, 2.0}, x, y, 0.4, 0.5, 28}};
+}
+
+Frame render(const Scene& scene, const Camera& camera, const Eigen::Isometry3d& T_world_camera,
+             const Light& light, const Sensor& sensor) {
+  std::vector<Texture> textures;
+  for (const Rectangle& rectangle : scene) textures.emplace_back(rectangle.texture);
+  Random random(sensor.seed);
+  Frame frame;
+  frame.image.create(camera.height, camera.width, CV_8UC1);
+  frame.depth =
+      cv::Mat::zeros(camera.height, camera.width, sensor.integer_depth ? CV_16UC1 : CV_32FC1);
+  for (int y = 0; y < camera.height; ++y) {
+    for (int x = 0; x < camera.width; ++x) {
+      // The ray has depth 1, so the distance along it is the depth of what it hits.
+      const Hit hit = castRay(scene, textures, T_world_camera.translation(),
+                              T_world_camera.linear() * camera.ray({x, y}));
+      const double square = (Eigen::Vector2d(x, y) - light.spot_centre).squaredNorm();
+      const double spot =
+          light.spot * std::exp(-0.5 * square / (light.spot_radius * light.spot_radius));
+      const double noise = sensor.noise > 0.0 ? sensor.noise * random.normal() : 0.0;
+      frame.image.at<unsigned char>(y, x) = greyLevel(
+          255.0 * (light.gain * std::pow(hit.brightness, light.gamma) + light.offset + spot) +
+          noise);
+      if (sensor.integer_depth) {
+        frame.depth.at<unsigned short>(y, x) =
+            static_cast<unsigned short>(std::lround(1000.0 * hit.depth));
+      } else {
+        frame.depth.at<float>(y, x) = static_cast<float>(hit.depth);
+      }
+    }
+  }
+  return frame;
+}
+
+Camera smallCamera() {
+  Camera camera;
+  camera.width = 160;
+  camera.height = 120;
+  camera.fx = 131.0;
+  camera.fy = 130.0;
+  camera.cx = 79.0;
+  camera.cy = 60.5;
+  return camera;
+}
+
+Camera distortedCamera() {
+  Camera camera = smallCamera();
+  camera.distortion = {0.2, -0.35, 0.001, -0.002, 0.1};
+  return camera;
+}
+
+}  // namespace mivo::testing
