@@ -22,7 +22,8 @@ cv::Mat toGrey(const cv::Mat& image, ChannelOrder order) {
     case CV_8UC1:
       return image;
     case CV_16UC1:
-      image.convertTo(grey, CV_8U, 1.0 / 257.0);
+      // Rounding after this shift is the same as dropping the low byte.
+      image.convertTo(grey, CV_8U, 1.0 / 256.0, 1.0 / 512.0 - 0.5);
       return grey;
     case CV_8UC3:
       cv::cvtColor(image, grey, rgb ? cv::COLOR_RGB2GRAY : cv::COLOR_BGR2GRAY);
