@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+
+#include "mivo/synthetic/scene.h"
+
+namespace mivo {
+
+Scene makeRoom(std::uint64_t seed);
+Scene makeOffice(std::uint64_t seed);
+Scene makeCorridor(std::uint64_t seed);
+Scene makeWall(std::uint64_t seed);
+
+}  // namespace mivo
