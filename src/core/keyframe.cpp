@@ -22,28 +22,36 @@ std::vector<Pixel> selectPoints(const cv::Mat& image, const cv::Mat& depth, bool
 
 }  // namespace
 
-bool usesMutualInformation(const Parameters& parameters, int level) {
-  return parameters.method == Method::kMi ||
-         (parameters.method == Method::kHybrid && level >= parameters.switch_level);
-}
-
-void Keyframe::build(const ImagePyramid& pyramid, const Frame& frame, const Camera& camera,
+void Keyframe::build(const FramePyramid& frame, const Camera& camera, const RowMotion& rows,
                      const Parameters& parameters) {
-  const int num_levels = pyramid.numLevels();
+  const int num_levels = frame.numLevels();
   levels_.resize(static_cast<std::size_t>(num_levels));
-  frame.image.copyTo(image_);
-  depth_pyramid_.build(frame, num_levels, parameters.min_depth, parameters.max_depth,
+  frame.frame().image.copyTo(image_);
+  depth_pyramid_.build(frame.frame(), num_levels, parameters.min_depth, parameters.max_depth,
                        parameters.depth_edge_ratio);
   for (int l = 0; l < num_levels; ++l) {
     KeyframeLevel& level = levels_[static_cast<std::size_t>(l)];
-    const cv::Mat& image = pyramid.level(l);
     const cv::Mat& depth = depth_pyramid_.level(l);
     const bool is_coarsest = l + 1 == num_levels && num_levels > 1;
     const bool uses_mi = usesMutualInformation(parameters, l);
+    // Mutual information compares whole images, normalised beforehand; SSD normalises at its
+    // points.
+    const ReferenceImage image{
+        uses_mi ? frame.informationImage(l) : frame.grey(l),
+        !uses_mi && frame.isNormalised() ? &frame.contrast().level(l) : nullptr};
     level.points.level = l;
-    makeReferencePoints(image, depth, camera.atLevel(l),
-                        selectPoints(image, depth, is_coarsest, parameters), uses_mi, level.points);
-    if (uses_mi) level.mi = makeMiReference(level.points, image, parameters);
+    makeReferencePoints(image, depth, camera.atLevel(l), rows,
+                        selectPoints(frame.grey(l), depth, is_coarsest, parameters), uses_mi,
+                        level.points);
+    if (uses_mi) level.mi = makeMiReference(level.points, frame.informationRange(l), parameters);
+  }
+  geometric_points_ = GeometricPoints{};
+  if (parameters.geometric_term) {
+    // Level 1 has patches of the right size, 14 pixels of the image; level 0 where there is no
+    // other.
+    const int l = std::min(1, num_levels - 1);
+    makeGeometricPoints(depth_pyramid_.level(l), camera.atLevel(l), rows,
+                        parameters.geometric_points_dark, geometric_points_);
   }
 }
 

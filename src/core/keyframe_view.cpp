@@ -51,15 +51,14 @@ cv::Mat makeResidualImage(const Keyframe& keyframe, const cv::Mat& live, const C
                           const Eigen::Isometry3d& T_live_ref) {
   const ReferencePoints points = pointsAt(pixelsWithDepth(keyframe.depth()), keyframe, camera);
   LiveSamples samples;
-  Warp(camera, 1).sample(points, T_live_ref, live, samples);
+  Warp(camera, RowMotion{}, 1).sample(points, T_live_ref, live, nullptr, samples);
   cv::Mat result((camera.height + 1) / kStride, (camera.width + 1) / kStride, CV_8UC1,
                  cv::Scalar(128));
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (samples.visible[i] == 0) continue;
+    if (samples.visible[i] == 0.0F) continue;
     const Pixel& pixel = points.pixels[i];
     result.at<unsigned char>(pixel.y / kStride, pixel.x / kStride) =
-        cv::saturate_cast<unsigned char>(128.0F +
-                                         0.5F * (samples.intensity[i] - points.intensity[i]));
+        cv::saturate_cast<unsigned char>(128.0F + 0.5F * (samples.value[i] - points.intensity[i]));
   }
   return result;
 }

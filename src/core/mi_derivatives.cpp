@@ -81,7 +81,7 @@ void addPoint(const ReferencePoints& points, const BinPosition& reference, const
 MiDerivatives mutualInformationDerivatives(const ReferencePoints& points,
                                            const MiReference& reference,
                                            const std::vector<BinPosition>& live,
-                                           const std::vector<unsigned char>& visible,
+                                           const std::vector<float>& visible,
                                            std::size_t num_visible, const JointHistogram& histogram,
                                            int threads) {
   MiDerivatives result;
@@ -92,7 +92,7 @@ MiDerivatives mutualInformationDerivatives(const ReferencePoints& points,
   forEachChunk(points.size(), threads, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       // A clamped intensity stays where it is under small motions.
-      if (visible[i] == 0 || reference.bins[i].is_clamped) continue;
+      if (visible[i] == 0.0F || reference.bins[i].is_clamped) continue;
       addPoint(points, reference.bins[i], live[i], reference.bins_per_grey_level, log_ratio, side,
                i, parts[chunk]);
     }

@@ -7,9 +7,9 @@
 
 namespace mivo {
 
-MiReference makeMiReference(const ReferencePoints& points, const cv::Mat& image,
+MiReference makeMiReference(const ReferencePoints& points, const IntensityRange& range,
                             const Parameters& parameters) {
-  const Binning binning(intensityRange(image, parameters.mi_range_quantile), parameters.mi_bins);
+  const Binning binning(range, parameters.mi_bins);
   MiReference reference;
   reference.bins_per_grey_level = binning.binsPerGreyLevel();
   reference.bins.resize(points.size());
@@ -20,7 +20,7 @@ MiReference makeMiReference(const ReferencePoints& points, const cv::Mat& image,
     JointHistogram histogram(parameters.mi_bins);
     for (const BinPosition& bin : reference.bins) histogram.add(bin, bin);
     histogram.normalise(points.size());
-    const std::vector<unsigned char> all(points.size(), 1);
+    const std::vector<float> all(points.size(), 1.0F);
     const MiDerivatives derivatives = mutualInformationDerivatives(
         points, reference, reference.bins, all, points.size(), histogram, parameters.threads);
     reference.self_hessian = -static_cast<double>(points.size()) * derivatives.hessian;
@@ -29,18 +29,19 @@ MiReference makeMiReference(const ReferencePoints& points, const cv::Mat& image,
 }
 
 MiTerm::MiTerm(const ReferencePoints& points, const MiReference& reference,
-               const cv::Mat& live_image, const Warp& warp, const Parameters& parameters)
+               const cv::Mat& live_image, const IntensityRange& live_range, const Warp& warp,
+               const Parameters& parameters)
     : points_(points),
       reference_(reference),
       live_image_(live_image),
       warp_(warp),
       hessian_(parameters.mi_hessian),
       threads_(parameters.threads),
-      live_binning_(intensityRange(live_image, parameters.mi_range_quantile), parameters.mi_bins),
+      live_binning_(live_range, parameters.mi_bins),
       histogram_(parameters.mi_bins) {}
 
 double MiTerm::evaluate(const Eigen::Isometry3d& T_live_ref) {
-  warp_.sample(points_, T_live_ref, live_image_, samples_);
+  warp_.sample(points_, T_live_ref, live_image_, nullptr, samples_);
   if (samples_.num_visible == 0) {
     mutual_information_ = 0.0;
     return std::numeric_limits<double>::infinity();
@@ -52,8 +53,8 @@ double MiTerm::evaluate(const Eigen::Isometry3d& T_live_ref) {
                  JointHistogram& part = parts_[chunk];
                  part.clear();
                  for (std::size_t i = begin; i < end; ++i) {
-                   if (samples_.visible[i] == 0) continue;
-                   live_bins_[i] = live_binning_(samples_.intensity[i]);
+                   if (samples_.visible[i] == 0.0F) continue;
+                   live_bins_[i] = live_binning_(samples_.value[i]);
                    part.add(reference_.bins[i], live_bins_[i]);
                  }
                });

@@ -56,6 +56,10 @@ Eigen::Isometry3d MotionModel::predict(double stamp, const Eigen::Isometry3d& la
   return orthonormalised(b.T_odom_camera * expSe3(ratio * motion));
 }
 
+double MotionModel::periodsSince(double stamp, const Parameters& parameters) const {
+  return poses_.empty() ? 1.0 : steps(poses_.back().stamp, stamp, parameters);
+}
+
 Vector6 MotionModel::velocity(const Parameters& parameters) const {
   const double period_s = period(parameters);
   if (poses_.size() < 2 || !(period_s > 0.0)) return Vector6::Zero();

@@ -6,7 +6,7 @@
 
 #include "mivo/core/cpu_clock.h"
 #include "mivo/core/error.h"
-#include "mivo/core/image_pyramid.h"
+#include "mivo/core/frame_pyramid.h"
 #include "mivo/core/keyframe.h"
 #include "mivo/core/keyframe_policy.h"
 #include "mivo/core/keyframe_view.h"
@@ -60,7 +60,7 @@ class Odometry::Implementation {
   Camera camera_;
   Parameters parameters_;
   TrackingResult result_;
-  ImagePyramid pyramid_;
+  FramePyramid live_;
   Keyframe keyframe_;
   bool has_keyframe_ = false;
   bool keyframe_is_outdated_ = false;  // a parameter changed that it was made with
@@ -72,7 +72,8 @@ class Odometry::Implementation {
   void track(const Frame& frame, const Eigen::Isometry3d& T_odom_camera_start);
   void accept(const Frame& frame, const Alignment& alignment);
   void lose(const Frame& frame, const Eigen::Isometry3d& guess, TrackingReason reason);
-  bool makeKeyframe(const Frame& frame, const Eigen::Isometry3d& T_odom_camera);
+  bool makeKeyframe(const Eigen::Isometry3d& T_odom_camera, const RowMotion& rows);
+  double readouts(double stamp) const;
   TrackingReason judge(const Frame& frame, const Alignment& alignment) const;
 
   MotionModel motion_;
@@ -112,7 +113,7 @@ void Odometry::Implementation::process(const Frame& frame, const Eigen::Isometry
   last_stamp_ = frame.stamp;
   has_stamp_ = true;
   motion_.addStamp(frame.stamp);
-  pyramid_.build(frame.image, usableLevels(camera_.width, camera_.height, parameters_.levels));
+  live_.build(frame, parameters_);
   result_.milliseconds.pyramid = threadMilliseconds() - begin;
 
   const Eigen::Isometry3d T_odom_camera_start =
@@ -123,7 +124,7 @@ void Odometry::Implementation::process(const Frame& frame, const Eigen::Isometry
   }
   if (has_keyframe_) {
     track(frame, T_odom_camera_start);
-  } else if (makeKeyframe(frame, T_odom_camera_start)) {
+  } else if (makeKeyframe(T_odom_camera_start, RowMotion{})) {
     result_.state = TrackingState::kTracking;
     result_.T_odom_camera = T_odom_camera_ = T_odom_camera_start;
     result_.covariance = diagonalCovariance(kFloorTranslation, kFloorRotation);
@@ -144,8 +145,10 @@ void Odometry::Implementation::process(const Frame& frame, const Eigen::Isometry
 void Odometry::Implementation::track(const Frame& frame,
                                      const Eigen::Isometry3d& T_odom_camera_start) {
   const double begin = threadMilliseconds();
-  const Alignment alignment = align(keyframe_, pyramid_, camera_,
-                                    T_odom_camera_start.inverse() * T_odom_keyframe_, parameters_);
+  const Alignment alignment =
+      align({keyframe_, live_, camera_, T_odom_camera_start.inverse() * T_odom_keyframe_,
+             T_odom_camera_.inverse() * T_odom_keyframe_, readouts(frame.stamp)},
+            parameters_);
   result_.milliseconds.tracking = threadMilliseconds() - begin;
   result_.num_levels = alignment.num_levels;
   result_.levels = alignment.levels;
@@ -167,6 +170,7 @@ TrackingReason Odometry::Implementation::judge(const Frame& frame,
   if (!alignment.T_live_ref.matrix().allFinite() || !alignment.information.allFinite()) {
     return TrackingReason::kNotFinite;
   }
+  if (!alignment.sees_image && !alignment.sees_depth) return TrackingReason::kNoInformation;
   if (alignment.overlap < parameters_.lost_overlap) return TrackingReason::kNoOverlap;
   if (alignment.points < parameters_.lost_points) return TrackingReason::kTooFewPoints;
   if (!(poseCovariance(alignment).ldlt().isPositive()) || !poseCovariance(alignment).allFinite()) {
@@ -183,11 +187,15 @@ TrackingReason Odometry::Implementation::judge(const Frame& frame,
 }
 
 void Odometry::Implementation::accept(const Frame& frame, const Alignment& alignment) {
+  const Eigen::Isometry3d T_odom_previous = T_odom_camera_;
   T_odom_camera_ = orthonormalised(T_odom_keyframe_ * alignment.T_live_ref.inverse());
+  const RowMotion rows =
+      rowMotion(T_odom_camera_.inverse() * T_odom_previous, readouts(frame.stamp));
   pose_stamp_ = frame.stamp;
   lost_in_a_row_ = 0;
   motion_.add(frame.stamp, T_odom_camera_);
-  result_.state = TrackingState::kTracking;
+  result_.state = alignment.sees_image ? TrackingState::kTracking : TrackingState::kDegraded;
+  if (!alignment.sees_image) result_.reason = TrackingReason::kNoInformation;
   result_.T_odom_camera = T_odom_camera_;
   result_.covariance = poseCovariance(alignment);
   result_.velocity = motion_.velocity(parameters_);
@@ -195,7 +203,7 @@ void Odometry::Implementation::accept(const Frame& frame, const Alignment& align
     first_quality_ = {alignment.mutual_information, alignment.residual_scale};
   }
   if (needsNewKeyframe(alignment, keyframe_, first_quality_, parameters_)) {
-    makeKeyframe(frame, T_odom_camera_);
+    makeKeyframe(T_odom_camera_, rows);
   }
 }
 
@@ -209,7 +217,7 @@ void Odometry::Implementation::lose(const Frame& frame, const Eigen::Isometry3d&
   // One frame may be bridged by its velocity; after that the last good pose is the best guess.
   if (lost_in_a_row_ > 1) motion_.stop();
   if (lost_in_a_row_ >= parameters_.lost_frames &&
-      parameters_.keyframe_policy != KeyframePolicy::kFirst && makeKeyframe(frame, guess)) {
+      parameters_.keyframe_policy != KeyframePolicy::kFirst && makeKeyframe(guess, RowMotion{})) {
     ++segment_;
     lost_in_a_row_ = 0;
     motion_.stop();
@@ -219,11 +227,18 @@ void Odometry::Implementation::lose(const Frame& frame, const Eigen::Isometry3d&
   }
 }
 
-bool Odometry::Implementation::makeKeyframe(const Frame& frame,
-                                            const Eigen::Isometry3d& T_odom_camera) {
+/// Read-out time of the image in intervals between the last trusted frame and this one.
+double Odometry::Implementation::readouts(double stamp) const {
+  const double period = motion_.period(parameters_);
+  if (!(period > 0.0)) return 0.0;
+  return parameters_.rolling_shutter_readout / (period * motion_.periodsSince(stamp, parameters_));
+}
+
+bool Odometry::Implementation::makeKeyframe(const Eigen::Isometry3d& T_odom_camera,
+                                            const RowMotion& rows) {
   const double begin = threadMilliseconds();
   Keyframe candidate;
-  candidate.build(pyramid_, frame, camera_, parameters_);
+  candidate.build(live_, camera_, rows, parameters_);
   result_.milliseconds.keyframe = threadMilliseconds() - begin;
   if (candidate.numPoints() < static_cast<std::size_t>(parameters_.lost_points)) return false;
   keyframe_ = std::move(candidate);
@@ -321,7 +336,7 @@ std::vector<CloudPoint> Odometry::keyframeCloud() const {
 cv::Mat Odometry::residualImage() const {
   const Implementation& self = *implementation_;
   if (!self.has_keyframe_) return {};
-  return makeResidualImage(self.keyframe_, self.pyramid_.level(0), self.camera_,
+  return makeResidualImage(self.keyframe_, self.live_.grey(0), self.camera_,
                            self.result_.T_odom_camera.inverse() * self.T_odom_keyframe_);
 }
 

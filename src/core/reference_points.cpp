@@ -6,22 +6,38 @@
 namespace mivo {
 namespace {
 
-Eigen::Vector2d imageGradient(const cv::Mat& image, const Pixel& p) {
-  const auto* row = image.ptr<float>(p.y);
-  return 0.5 * Eigen::Vector2d(row[p.x + 1] - row[p.x - 1],
-                               image.ptr<float>(p.y + 1)[p.x] - image.ptr<float>(p.y - 1)[p.x]);
-}
+/// The values that are compared, around a pixel.
+class Neighbourhood {
+ public:
+  Neighbourhood(const ReferenceImage& image, const Pixel& p)
+      : value_(sample(image, p.x, p.y)),
+        left_(sample(image, p.x - 1, p.y)),
+        right_(sample(image, p.x + 1, p.y)),
+        above_(sample(image, p.x, p.y - 1)),
+        below_(sample(image, p.x, p.y + 1)) {}
 
-Eigen::Matrix2d imageHessian(const cv::Mat& image, const Pixel& p) {
-  const auto* above = image.ptr<float>(p.y - 1);
-  const auto* row = image.ptr<float>(p.y);
-  const auto* below = image.ptr<float>(p.y + 1);
-  const double xy = 0.25 * (below[p.x + 1] - below[p.x - 1] - above[p.x + 1] + above[p.x - 1]);
-  Eigen::Matrix2d hessian;
-  hessian << row[p.x + 1] - 2.0F * row[p.x] + row[p.x - 1], xy, xy,
-      below[p.x] - 2.0F * row[p.x] + above[p.x];
-  return hessian;
-}
+  double value() const { return value_; }
+  Eigen::Vector2d gradient() const {
+    return 0.5 * Eigen::Vector2d(right_ - left_, below_ - above_);
+  }
+
+  Eigen::Matrix2d hessian(const ReferenceImage& image, const Pixel& p) const {
+    const double xy = 0.25 * (sample(image, p.x + 1, p.y + 1) - sample(image, p.x - 1, p.y + 1) -
+                              sample(image, p.x + 1, p.y - 1) + sample(image, p.x - 1, p.y - 1));
+    Eigen::Matrix2d hessian;
+    hessian << right_ - 2.0 * value_ + left_, xy, xy, below_ - 2.0 * value_ + above_;
+    return hessian;
+  }
+
+ private:
+  static double sample(const ReferenceImage& image, int x, int y) {
+    return static_cast<double>(image.contrast != nullptr
+                                   ? normalisedIntensity(image.grey, *image.contrast, x, y)
+                                   : image.grey.at<float>(y, x));
+  }
+
+  double value_, left_, right_, above_, below_;
+};
 
 /// Rows: derivative of X/Z and Y/Z with respect to X, Y, Z.
 Eigen::Matrix<double, 2, 3> projectionJacobian(const Eigen::Vector3d& point) {
@@ -38,12 +54,22 @@ float median(std::vector<float> values) {
 }
 
 void resize(std::size_t n, bool with_second_derivative, ReferencePoints& points) {
-  for (std::vector<float>* array : {&points.x, &points.y, &points.z, &points.intensity}) {
+  for (std::vector<float>* array :
+       {&points.x, &points.y, &points.z, &points.intensity, &points.contrast}) {
     array->resize(n);
   }
   for (std::vector<float>& array : points.jacobian) array.resize(n);
   for (std::vector<float>& array : points.second_derivative) {
     array.resize(with_second_derivative ? n : 0);
+  }
+}
+
+void storeUpperTriangle(const Matrix6& matrix, std::size_t i, ReferencePoints& points) {
+  std::size_t entry = 0;
+  for (int row = 0; row < 6; ++row) {
+    for (int column = row; column < 6; ++column) {
+      points.second_derivative[entry++][i] = static_cast<float>(matrix(row, column));
+    }
   }
 }
 
@@ -74,44 +100,45 @@ PointDerivatives pointDerivatives(const Eigen::Vector3d& point,
   return result;
 }
 
-void makeReferencePoints(const cv::Mat& image, const cv::Mat& depth, const Camera& camera,
-                         const std::vector<Pixel>& pixels, bool with_second_derivative,
-                         ReferencePoints& points) {
+void makeReferencePoints(const ReferenceImage& image, const cv::Mat& depth, const Camera& camera,
+                         const RowMotion& rows, const std::vector<Pixel>& pixels,
+                         bool with_second_derivative, ReferencePoints& points) {
   const std::size_t n = pixels.size();
   points.pixels = pixels;
   resize(n, with_second_derivative, points);
   points.pixel_motion.setZero();
   const Eigen::Vector2d focal(camera.fx, camera.fy);
-  const bool distorted = !camera.distortion.isZero();
+  const bool is_distorted = !camera.distortion.isZero();
   for (std::size_t i = 0; i < n; ++i) {
     const Pixel& pixel = pixels[i];
-    const double z = depth.at<float>(pixel.y, pixel.x);
+    const double z = static_cast<double>(depth.at<float>(pixel.y, pixel.x));
     const Eigen::Vector3d ray = camera.ray({pixel.x, pixel.y});
-    const Eigen::Vector3d point = z * ray;
+    Eigen::Vector3d point = z * ray;
+    point -= rows.displacement(point, pixel.y, camera.height);
     // d pixel / d normalised coordinates. The curvature of the distortion itself is left out of the
     // second derivatives: it is hundreds of times weaker than the image's.
     Eigen::Matrix2d scale = Eigen::Matrix2d::Identity();
-    if (distorted) camera.distort(ray.head<2>(), &scale);
+    if (is_distorted) camera.distort(ray.head<2>(), &scale);
     scale = focal.asDiagonal() * scale;
+    const Neighbourhood values(image, pixel);
+    const double contrast =
+        image.contrast != nullptr
+            ? static_cast<double>(localContrast(*image.contrast, pixel.x, pixel.y))
+            : 1.0;
+    Eigen::Matrix2d hessian = Eigen::Matrix2d::Zero();
+    if (with_second_derivative) hessian = values.hessian(image, pixel);
     const PointDerivatives derivatives =
-        pointDerivatives(point, scale.transpose() * imageGradient(image, pixel),
-                         scale.transpose() * imageHessian(image, pixel) * scale);
+        pointDerivatives(point, contrast * scale.transpose() * values.gradient(),
+                         contrast * scale.transpose() * hessian * scale);
     points.x[i] = static_cast<float>(point.x());
     points.y[i] = static_cast<float>(point.y());
     points.z[i] = static_cast<float>(point.z());
-    points.intensity[i] = image.at<float>(pixel.y, pixel.x);
+    points.intensity[i] = static_cast<float>(contrast * values.value());
+    points.contrast[i] = static_cast<float>(contrast);
     for (std::size_t k = 0; k < 6; ++k) {
       points.jacobian[k][i] = static_cast<float>(derivatives.jacobian[static_cast<int>(k)]);
     }
-    if (with_second_derivative) {
-      std::size_t entry = 0;
-      for (int row = 0; row < 6; ++row) {
-        for (int column = row; column < 6; ++column) {
-          points.second_derivative[entry++][i] =
-              static_cast<float>(derivatives.second(row, column));
-        }
-      }
-    }
+    if (with_second_derivative) storeUpperTriangle(derivatives.second, i, points);
     Eigen::Matrix<double, 3, 6> D;
     D << Eigen::Matrix3d::Identity(), -skew(point);
     const Eigen::Matrix<double, 2, 6> motion = scale * projectionJacobian(point) * D;

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mivo/core/tracker.h"
 
+#include <memory>
+
 #include "mivo/core/cpu_clock.h"
+#include "mivo/core/geometric_term.h"
 #include "mivo/core/mi_term.h"
 #include "mivo/core/minimise.h"
 #include "mivo/core/ssd_term.h"
@@ -9,55 +12,136 @@
 namespace mivo {
 namespace {
 
-/// Minimises a term whose points are enough in view, and notes what happened.
-template <typename Term>
-bool alignLevel(Term& term, const ReferencePoints& points, const Parameters& parameters,
-                Alignment& alignment, LevelRecord& record) {
-  const auto needed = static_cast<std::size_t>(parameters.lost_points);
-  if (points.size() < needed) return false;
-  term.evaluate(alignment.T_live_ref);
-  if (term.numVisible() < needed) return false;
-  const Minimum minimum =
-      minimise({&term}, alignment.T_live_ref, static_cast<double>(points.median_depth),
-               points.pixel_motion, parameters);
-  alignment.T_live_ref = minimum.T_live_ref;
-  alignment.information = minimum.hessian;
-  alignment.condition = minimum.condition;
-  record.visible = static_cast<int>(term.numVisible());
-  record.iterations = minimum.iterations;
-  record.evaluations = minimum.evaluations;
-  record.cost = minimum.cost / static_cast<double>(points.size());
-  record.line_search_milliseconds = minimum.line_search_milliseconds;
-  return true;
-}
+/// One level of the descent: its warp, its terms, and what they found.
+class LevelAligner {
+ public:
+  LevelAligner(const AlignmentTask& task, int level, const Parameters& parameters,
+               Alignment& alignment, LevelRecord& record)
+      : task_(task),
+        level_(level),
+        parameters_(parameters),
+        points_(task.keyframe.level(level).points),
+        rows_(rowMotion(alignment.T_live_ref * task.T_previous_ref.inverse(), task.readouts)),
+        warp_(task.camera.atLevel(level), rows_, parameters.threads),
+        finest_warp_(task.camera, rows_, parameters.threads),
+        alignment_(alignment),
+        record_(record) {
+    record_ = LevelRecord{};
+    record_.level = level;
+    record_.points = static_cast<int>(points_.size());
+    record_.mutual_information = usesMutualInformation(parameters, level);
+  }
+
+  void run() {
+    const double start = threadMilliseconds();
+    if (record_.mutual_information) {
+      alignInformation();
+    } else {
+      alignIntensities();
+    }
+    record_.milliseconds = threadMilliseconds() - start;
+  }
+
+ private:
+  template <typename Term>
+  bool isEnoughInView(Term& term) const {
+    const auto needed = static_cast<std::size_t>(parameters_.lost_points);
+    if (points_.size() < needed) return false;
+    term.evaluate(alignment_.T_live_ref);
+    return term.numVisible() >= needed;
+  }
+
+  /// The geometric term, if enough of its points have depth in the live frame.
+  std::unique_ptr<GeometricTerm> geometricTerm(int num_points) const {
+    const GeometricPoints& points = task_.keyframe.geometricPoints();
+    if (!parameters_.geometric_term || points.size() == 0) return nullptr;
+    auto term = std::make_unique<GeometricTerm>(points, static_cast<std::size_t>(num_points),
+                                                task_.live, finest_warp_, parameters_);
+    term->evaluate(alignment_.T_live_ref);
+    if (term->numVisible() < static_cast<std::size_t>(parameters_.lost_points)) return nullptr;
+    return term;
+  }
+
+  void minimiseTerms(const std::vector<CostTerm*>& terms) {
+    const Minimum minimum =
+        minimise(terms, alignment_.T_live_ref, static_cast<double>(points_.median_depth),
+                 points_.pixel_motion, parameters_);
+    alignment_.T_live_ref = minimum.T_live_ref;
+    alignment_.information = minimum.hessian;
+    alignment_.condition = minimum.condition;
+    record_.iterations += minimum.iterations;
+    record_.evaluations += minimum.evaluations;
+    record_.cost = minimum.cost / static_cast<double>(points_.size());
+    record_.line_search_milliseconds += minimum.line_search_milliseconds;
+  }
+
+  void alignInformation() {
+    MiTerm term(points_, task_.keyframe.level(level_).mi, task_.live.informationImage(level_),
+                task_.live.informationRange(level_), warp_, parameters_);
+    const Eigen::Isometry3d start = alignment_.T_live_ref;
+    alignment_.sees_image = false;
+    alignment_.sees_depth = false;
+    if (isEnoughInView(term)) {
+      minimiseTerms({&term});
+      record_.visible = static_cast<int>(term.numVisible());
+      alignment_.mutual_information = term.mutualInformation();
+      alignment_.sees_image =
+          2.0 * record_.visible * term.mutualInformation() >= parameters_.mi_significance;
+    }
+    if (alignment_.sees_image) return;
+    // Chance, not structure: its maximum means nothing. Depth may still know the way.
+    alignment_.T_live_ref = start;
+    if (const auto geometry = geometricTerm(parameters_.geometric_points_dark)) {
+      minimiseTerms({geometry.get()});
+      alignment_.sees_depth = true;
+    }
+  }
+
+  void alignIntensities() {
+    SsdTerm term(points_, task_.live.grey(level_),
+                 task_.live.isNormalised() ? &task_.live.contrast().level(level_) : nullptr, warp_,
+                 parameters_);
+    alignment_.sees_image = isEnoughInView(term) && term.isSignificant();
+    const auto geometry = geometricTerm(alignment_.sees_image ? parameters_.geometric_points
+                                                              : parameters_.geometric_points_dark);
+    std::vector<CostTerm*> terms;
+    if (term.numVisible() >= static_cast<std::size_t>(parameters_.lost_points)) {
+      terms.push_back(&term);
+    }
+    if (geometry != nullptr) terms.push_back(geometry.get());
+    alignment_.sees_depth = geometry != nullptr;
+    if (!terms.empty()) minimiseTerms(terms);
+    alignment_.sees_image = alignment_.sees_image && term.isInformative();
+    record_.visible = static_cast<int>(term.numVisible());
+    alignment_.residual_scale = term.scale();
+    alignment_.correlation = term.correlation();
+  }
+
+  const AlignmentTask& task_;
+  int level_;
+  const Parameters& parameters_;
+  const ReferencePoints& points_;
+  RowMotion rows_;
+  Warp warp_;
+  Warp finest_warp_;
+  Alignment& alignment_;
+  LevelRecord& record_;
+};
 
 }  // namespace
 
-Alignment align(const Keyframe& keyframe, const ImagePyramid& live, const Camera& camera,
-                const Eigen::Isometry3d& T_live_ref_start, const Parameters& parameters) {
+RowMotion rowMotion(const Eigen::Isometry3d& T_live_previous, double readouts) {
+  RowMotion rows;
+  if (readouts > 0.0) rows.twist = readouts * localCoordinates(T_live_previous);
+  return rows;
+}
+
+Alignment align(const AlignmentTask& task, const Parameters& parameters) {
   Alignment alignment;
-  alignment.T_live_ref = T_live_ref_start;
-  for (int l = keyframe.numLevels() - 1; l >= 0; --l) {
-    const double start = threadMilliseconds();
-    const KeyframeLevel& level = keyframe.level(l);
-    const Warp warp(camera.atLevel(l), parameters.threads);
+  alignment.T_live_ref = task.T_live_ref;
+  for (int l = task.keyframe.numLevels() - 1; l >= 0; --l) {
     LevelRecord& record = alignment.levels[static_cast<std::size_t>(alignment.num_levels++)];
-    record = LevelRecord{};
-    record.level = l;
-    record.points = static_cast<int>(level.points.size());
-    record.mutual_information = usesMutualInformation(parameters, l);
-    if (record.mutual_information) {
-      MiTerm term(level.points, level.mi, live.level(l), warp, parameters);
-      if (alignLevel(term, level.points, parameters, alignment, record)) {
-        alignment.mutual_information = term.mutualInformation();
-      }
-    } else {
-      SsdTerm term(level.points, live.level(l), warp, parameters);
-      if (alignLevel(term, level.points, parameters, alignment, record)) {
-        alignment.residual_scale = term.scale();
-      }
-    }
-    record.milliseconds = threadMilliseconds() - start;
+    LevelAligner(task, l, parameters, alignment, record).run();
   }
   const LevelRecord& finest = alignment.levels[static_cast<std::size_t>(alignment.num_levels - 1)];
   alignment.points = finest.visible;

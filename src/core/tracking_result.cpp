@@ -27,6 +27,8 @@ const char* toString(TrackingReason reason) {
       return "too few points with depth and texture";
     case TrackingReason::kNoOverlap:
       return "too little of the keyframe in view";
+    case TrackingReason::kNoInformation:
+      return "image has nothing in common with the keyframe";
     case TrackingReason::kSingular:
       return "image does not fix all directions";
     case TrackingReason::kImplausibleMotion:

@@ -1,86 +1,73 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mivo/core/warp.h"
 
-#include <cmath>
 #include <numeric>
 
 #include "mivo/core/parallel_chunks.h"
 
 namespace mivo {
 
-Warp::Warp(const Camera& camera, int threads)
-    : camera_(camera),
-      max_squared_radius_(static_cast<float>(camera.maxSquaredRadius())),
-      is_distorted_(!camera.distortion.isZero()),
-      threads_(threads) {}
-
-void Warp::sample(const ReferencePoints& points, const Eigen::Isometry3d& T_live_ref,
-                  const cv::Mat& image, LiveSamples& samples) const {
-  samples.intensity.resize(points.size());
-  samples.visible.resize(points.size());
-  std::vector<std::size_t> visible(numChunks(points.size()));
-  forEachChunk(points.size(), threads_, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
-    visible[chunk] = sampleChunk(points, T_live_ref, image, begin, end, samples);
-  });
-  samples.num_visible = std::accumulate(visible.begin(), visible.end(), std::size_t{0});
+kernels::ImageView view(const cv::Mat& image) {
+  return {image.ptr<float>(), static_cast<std::ptrdiff_t>(image.step1()), image.cols, image.rows};
 }
 
-std::size_t Warp::sampleChunk(const ReferencePoints& points, const Eigen::Isometry3d& T_live_ref,
-                              const cv::Mat& image, std::size_t begin, std::size_t end,
-                              LiveSamples& samples) const {
-  const Eigen::Matrix3f R = T_live_ref.linear().cast<float>();
-  const Eigen::Vector3f t = T_live_ref.translation().cast<float>();
-  const auto fx = static_cast<float>(camera_.fx);
-  const auto fy = static_cast<float>(camera_.fy);
-  const auto cx = static_cast<float>(camera_.cx);
-  const auto cy = static_cast<float>(camera_.cy);
-  const auto k1 = static_cast<float>(camera_.distortion.k1);
-  const auto k2 = static_cast<float>(camera_.distortion.k2);
-  const auto k3 = static_cast<float>(camera_.distortion.k3);
-  const auto p1 = static_cast<float>(camera_.distortion.p1);
-  const auto p2 = static_cast<float>(camera_.distortion.p2);
-  const auto right = static_cast<float>(image.cols - 1);
-  const auto bottom = static_cast<float>(image.rows - 1);
-  std::size_t count = 0;
-  for (std::size_t i = begin; i < end; ++i) {
-    const float px = points.x[i];
-    const float py = points.y[i];
-    const float pz = points.z[i];
-    const float z = R(2, 0) * px + R(2, 1) * py + R(2, 2) * pz + t.z();
-    const float inverse = 1.0F / z;
-    float u = (R(0, 0) * px + R(0, 1) * py + R(0, 2) * pz + t.x()) * inverse;
-    float v = (R(1, 0) * px + R(1, 1) * py + R(1, 2) * pz + t.y()) * inverse;
-    bool visible = z > 0.0F;
-    if (is_distorted_) {
-      const float r2 = u * u + v * v;
-      const float radial = 1.0F + r2 * (k1 + r2 * (k2 + r2 * k3));
-      const float uv2 = 2.0F * u * v;
-      visible = visible && r2 <= max_squared_radius_;
-      const float distorted = u * radial + p1 * uv2 + p2 * (r2 + 2.0F * u * u);
-      v = v * radial + p1 * (r2 + 2.0F * v * v) + p2 * uv2;
-      u = distorted;
+Warp::Warp(const Camera& camera, const RowMotion& rows, int threads)
+    : camera_(camera),
+      rows_(rows),
+      max_squared_radius_(static_cast<float>(camera.maxSquaredRadius())),
+      threads_(threads) {}
+
+kernels::WarpParameters Warp::parameters(const Eigen::Isometry3d& T_live_ref) const {
+  kernels::WarpParameters p{};
+  for (int row = 0; row < 3; ++row) {
+    for (int column = 0; column < 3; ++column) {
+      p.rotation[3 * row + column] = static_cast<float>(T_live_ref.linear()(row, column));
     }
-    u = fx * u + cx;
-    v = fy * v + cy;
-    // Written so that NaN is outside.
-    visible = visible && u >= 0.0F && v >= 0.0F && u < right && v < bottom;
-    samples.visible[i] = visible ? 1 : 0;
-    if (!visible) {
-      samples.intensity[i] = 0.0F;
-      continue;
-    }
-    const int column = static_cast<int>(u);  // not negative: truncation is the floor
-    const int row = static_cast<int>(v);
-    const float du = u - static_cast<float>(column);
-    const float dv = v - static_cast<float>(row);
-    const float* upper = image.ptr<float>(row) + column;
-    const float* lower = image.ptr<float>(row + 1) + column;
-    const float top = upper[0] + du * (upper[1] - upper[0]);
-    const float low = lower[0] + du * (lower[1] - lower[0]);
-    samples.intensity[i] = top + dv * (low - top);
-    ++count;
+    p.translation[row] = static_cast<float>(T_live_ref.translation()[row]);
+    p.linear[row] = static_cast<float>(rows_.twist[row]);
+    p.angular[row] = static_cast<float>(rows_.twist[row + 3]);
   }
-  return count;
+  p.has_row_motion = !rows_.isZero();
+  p.height = static_cast<float>(camera_.height);
+  p.fx = static_cast<float>(camera_.fx);
+  p.fy = static_cast<float>(camera_.fy);
+  p.cx = static_cast<float>(camera_.cx);
+  p.cy = static_cast<float>(camera_.cy);
+  p.is_distorted = !camera_.distortion.isZero();
+  p.k1 = static_cast<float>(camera_.distortion.k1);
+  p.k2 = static_cast<float>(camera_.distortion.k2);
+  p.p1 = static_cast<float>(camera_.distortion.p1);
+  p.p2 = static_cast<float>(camera_.distortion.p2);
+  p.k3 = static_cast<float>(camera_.distortion.k3);
+  p.max_squared_radius = max_squared_radius_;
+  p.right = static_cast<float>(camera_.width - 1);
+  p.bottom = static_cast<float>(camera_.height - 1);
+  return p;
+}
+
+void Warp::sample(const ReferencePoints& points, const Eigen::Isometry3d& T_live_ref,
+                  const cv::Mat& image, const ContrastMap* contrast, LiveSamples& samples) const {
+  for (std::vector<float>* array : {&samples.u, &samples.v, &samples.visible, &samples.value}) {
+    array->resize(points.size());
+  }
+  const kernels::WarpParameters warp = parameters(T_live_ref);
+  const kernels::ImageView pixels = view(image);
+  std::vector<std::size_t> visible(numChunks(points.size()));
+  forEachChunk(points.size(), threads_, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+    const std::size_t n = end - begin;
+    float* u = samples.u.data() + begin;
+    float* v = samples.v.data() + begin;
+    float* seen = samples.visible.data() + begin;
+    float* value = samples.value.data() + begin;
+    visible[chunk] = kernels::warpPoints(warp, points.view(begin), n, u, v, seen);
+    if (contrast != nullptr) {
+      kernels::sampleNormalised(pixels, view(contrast->mean), view(contrast->deviation),
+                                contrast->constant, u, v, seen, n, value);
+    } else {
+      kernels::sampleIntensity(pixels, u, v, seen, n, value);
+    }
+  });
+  samples.num_visible = std::accumulate(visible.begin(), visible.end(), std::size_t{0});
 }
 
 }  // namespace mivo

@@ -6,16 +6,14 @@
 
 #include "mivo/core/camera.h"
 #include "mivo/core/depth_pyramid.h"
-#include "mivo/core/frame.h"
-#include "mivo/core/image_pyramid.h"
+#include "mivo/core/frame_pyramid.h"
+#include "mivo/core/geometric_points.h"
 #include "mivo/core/mi_term.h"
 #include "mivo/core/parameters.h"
 #include "mivo/core/reference_points.h"
+#include "mivo/core/row_motion.h"
 
 namespace mivo {
-
-/// Whether a level is aligned by mutual information, rather than by SSD (Algorithm 1).
-bool usesMutualInformation(const Parameters& parameters, int level);
 
 /// One level of a keyframe.
 struct KeyframeLevel {
@@ -27,8 +25,9 @@ struct KeyframeLevel {
 /// coarsest level uses all pixels with depth, the others the salient ones (section III-C).
 class Keyframe {
  public:
-  /// Fills the keyframe from a frame and its pyramid; buffers are reused.
-  void build(const ImagePyramid& pyramid, const Frame& frame, const Camera& camera,
+  /// Fills the keyframe from a frame; buffers are reused. @param rows motion of the camera while
+  /// the frame's rows were read.
+  void build(const FramePyramid& frame, const Camera& camera, const RowMotion& rows,
              const Parameters& parameters);
 
   int numLevels() const { return static_cast<int>(levels_.size()); }
@@ -38,12 +37,16 @@ class Keyframe {
   std::size_t numPoints() const { return levels_.front().points.size(); }
   double medianDepth() const { return static_cast<double>(levels_.front().points.median_depth); }
 
+  /// Points of the geometric term; none without it.
+  const GeometricPoints& geometricPoints() const { return geometric_points_; }
+
   const cv::Mat& image() const { return image_; }                   ///< CV_8UC1
   const cv::Mat& depth() const { return depth_pyramid_.level(0); }  ///< CV_32FC1 m, 0: none
 
  private:
   std::vector<KeyframeLevel> levels_;
   DepthPyramid depth_pyramid_;
+  GeometricPoints geometric_points_;
   cv::Mat image_;
 };
 

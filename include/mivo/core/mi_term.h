@@ -20,17 +20,18 @@ struct MiReference {
   Matrix6 self_hessian = Matrix6::Identity();
 };
 
-/// Bins of the points of a level whose image is CV_32FC1.
-MiReference makeMiReference(const ReferencePoints& points, const cv::Mat& image,
+/// Bins of the points of a level; `range` fills them.
+MiReference makeMiReference(const ReferencePoints& points, const IntensityRange& range,
                             const Parameters& parameters);
 
 /// Mutual information of the points' intensities in keyframe and live image (Eq. 2 to 4) as a cost:
 /// minus the number of points times their mutual information.
 class MiTerm : public CostTerm {
  public:
-  /// Keeps references to all arguments but the parameters. `points` need second derivatives.
+  /// Keeps references to all arguments but the range and the parameters. `points` need second
+  /// derivatives. @param live_range the grey levels of the live image that fill the bins.
   MiTerm(const ReferencePoints& points, const MiReference& reference, const cv::Mat& live_image,
-         const Warp& warp, const Parameters& parameters);
+         const IntensityRange& live_range, const Warp& warp, const Parameters& parameters);
 
   double evaluate(const Eigen::Isometry3d& T_live_ref) override;
   QuadraticModel linearise(int iteration) override;
@@ -62,7 +63,7 @@ struct MiDerivatives {
 MiDerivatives mutualInformationDerivatives(const ReferencePoints& points,
                                            const MiReference& reference,
                                            const std::vector<BinPosition>& live,
-                                           const std::vector<unsigned char>& visible,
+                                           const std::vector<float>& visible,
                                            std::size_t num_visible, const JointHistogram& histogram,
                                            int threads);
 

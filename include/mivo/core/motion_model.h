@@ -32,6 +32,9 @@ class MotionModel {
   /// Expresses the poses in another world: T_new_old.
   void transform(const Eigen::Isometry3d& T_new_old);
 
+  /// Whole frame periods from the last pose to a stamp, at least one.
+  double periodsSince(double stamp, const Parameters& parameters) const;
+
   /// Frame period: the parameter, or the median of the last stamps' differences, s; 0: unknown.
   double period(const Parameters& parameters) const;
 

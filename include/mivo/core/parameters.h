@@ -7,6 +7,7 @@
 namespace mivo {
 
 enum class Method { kSsd, kMi, kHybrid };
+enum class PhotometricModel { kNone, kLcn };
 enum class MiHessian { kFull, kReference };
 enum class RobustWeight { kNone, kHuber, kTukey, kStudentT };
 enum class KeyframePolicy { kAutomatic, kFirst };

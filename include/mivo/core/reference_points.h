@@ -6,7 +6,10 @@
 #include <vector>
 
 #include "mivo/core/camera.h"
+#include "mivo/core/contrast_maps.h"
+#include "mivo/core/kernels/kernels.h"
 #include "mivo/core/point_selection.h"
+#include "mivo/core/row_motion.h"
 #include "mivo/core/se3.h"
 
 namespace mivo {
@@ -19,8 +22,14 @@ constexpr int kSymmetric6 = 21;
 struct ReferencePoints {
   int level = 0;
   std::vector<Pixel> pixels;
-  std::vector<float> x, y, z;                  ///< metres, optical frame of the keyframe
-  std::vector<float> intensity;                ///< grey levels, 0..255
+  /// Metres, optical frame of the keyframe at the time of its middle row.
+  std::vector<float> x, y, z;
+  /// What the live image is compared with, grey levels: the intensity; with local contrast
+  /// normalisation the intensity minus its local mean.
+  std::vector<float> intensity;
+  /// Grey levels per unit of the live sample: 1; with local contrast normalisation the local
+  /// deviation, which gives each point the weight that its noise deserves.
+  std::vector<float> contrast;
   std::array<std::vector<float>, 6> jacobian;  ///< d intensity / d d, grey levels per m and per rad
   /// Second derivative of the intensity, upper triangle row by row; empty unless asked for.
   std::array<std::vector<float>, kSymmetric6> second_derivative;
@@ -30,14 +39,24 @@ struct ReferencePoints {
   Matrix6 pixel_motion = Matrix6::Identity();
 
   std::size_t size() const { return pixels.size(); }
+  kernels::PointsView view(std::size_t begin) const {
+    return {x.data() + begin, y.data() + begin, z.data() + begin};
+  }
 };
 
-/// Fills the arrays for the chosen pixels of one level.
-/// @param image CV_32FC1 grey, @param depth CV_32FC1 metres, both of this level; every pixel has
-/// depth and lies at least one pixel from the border. @param camera of this level.
-void makeReferencePoints(const cv::Mat& image, const cv::Mat& depth, const Camera& camera,
-                         const std::vector<Pixel>& pixels, bool with_second_derivative,
-                         ReferencePoints& points);
+/// The image that points are made from.
+struct ReferenceImage {
+  const cv::Mat& grey;                    ///< CV_32FC1, of the level
+  const ContrastMap* contrast = nullptr;  ///< to normalise it by; null: taken as it is
+};
+
+/// Fills the arrays for the chosen pixels of one level; each has depth and lies at least one pixel
+/// from the border. @param depth CV_32FC1 metres, @param camera both of this level.
+/// @param rows motion of the keyframe's camera while its rows were read: points are moved to where
+/// they were when the middle row was read.
+void makeReferencePoints(const ReferenceImage& image, const cv::Mat& depth, const Camera& camera,
+                         const RowMotion& rows, const std::vector<Pixel>& pixels,
+                         bool with_second_derivative, ReferencePoints& points);
 
 /// First and second derivative of the intensity at one point with respect to the increment, from
 /// those with respect to undistorted normalised coordinates (X / Z, Y / Z).

@@ -2,44 +2,56 @@
 #pragma once
 
 #include <opencv2/core/mat.hpp>
-#include <vector>
 
+#include "mivo/core/contrast_maps.h"
 #include "mivo/core/cost_term.h"
 #include "mivo/core/parameters.h"
 #include "mivo/core/reference_points.h"
+#include "mivo/core/robust_sum.h"
 #include "mivo/core/warp.h"
 
 namespace mivo {
 
 /// Robust sum of squared differences (Eq. 1), inverse compositional Gauss-Newton: residual
-/// r = I_live(w(x)) - I_ref(x), in grey levels, of the scale that the residuals themselves show.
+/// r = contrast * live - intensity, in grey levels, of the scale that the residuals themselves
+/// show.
 class SsdTerm : public CostTerm {
  public:
-  /// Keeps references to all arguments but the parameters.
-  SsdTerm(const ReferencePoints& points, const cv::Mat& live_image, const Warp& warp,
-          const Parameters& parameters);
+  /// Keeps references to all arguments but the parameters. @param contrast of the live image; null:
+  /// intensities are compared as they are.
+  SsdTerm(const ReferencePoints& points, const cv::Mat& live_image, const ContrastMap* contrast,
+          const Warp& warp, const Parameters& parameters);
 
   double evaluate(const Eigen::Isometry3d& T_live_ref) override;
   QuadraticModel linearise(int iteration) override;
 
-  /// Robust standard deviation of the residuals, grey levels; 0 before the first linearise().
-  double scale() const { return scale_; }
-  std::size_t numVisible() const { return samples_.num_visible; }
+  /// Robust standard deviation of the residuals, grey levels; 0 before the first evaluate().
+  double scale() const { return sum_.scale(); }
+
+  /// Correlation of what keyframe and live image show at the last pose, -1..1.
+  double correlation() const;
+
+  /// Whether that correlation is more than chance.
+  bool isSignificant() const;
+
+  /// Whether it was so in the first iterations of the level. If not, the image says nothing about
+  /// the pose, and the term leaves it to the others.
+  bool isInformative() const { return weight_ == 1.0; }
+
+  std::size_t numVisible() const { return residuals_.num_visible; }
+  const Residuals& residuals() const { return residuals_; }
+  const LiveSamples& samples() const { return samples_; }
 
  private:
-  double estimateScale();
-  double cost() const;
-
   const ReferencePoints& points_;
   const cv::Mat& live_image_;
+  const ContrastMap* contrast_;
   const Warp& warp_;
-  RobustWeight weight_;
+  RobustSum sum_;
   int scale_iterations_;
-  double min_scale_;
-  int threads_;
+  double weight_ = 1.0;
   LiveSamples samples_;
-  std::vector<float> magnitudes_;
-  double scale_ = 0.0;
+  Residuals residuals_;
 };
 
 }  // namespace mivo

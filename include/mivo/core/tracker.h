@@ -5,30 +5,48 @@
 #include <array>
 
 #include "mivo/core/camera.h"
-#include "mivo/core/image_pyramid.h"
+#include "mivo/core/frame_pyramid.h"
 #include "mivo/core/keyframe.h"
 #include "mivo/core/parameters.h"
+#include "mivo/core/row_motion.h"
 #include "mivo/core/tracking_result.h"
 
 namespace mivo {
+
+/// Two images of one camera and where to start.
+struct AlignmentTask {
+  const Keyframe& keyframe;
+  const FramePyramid& live;
+  const Camera& camera;
+  Eigen::Isometry3d T_live_ref = Eigen::Isometry3d::Identity();  ///< start
+  /// Pose of the frame before the live one, to know how the camera moves while rows are read;
+  /// `readouts` is the read-out time in intervals between the two frames, 0: global shutter.
+  Eigen::Isometry3d T_previous_ref = Eigen::Isometry3d::Identity();
+  double readouts = 0.0;
+};
 
 /// Result of aligning one frame with a keyframe.
 struct Alignment {
   Eigen::Isometry3d T_live_ref = Eigen::Isometry3d::Identity();
   Matrix6 information = Matrix6::Identity();  ///< of the increment at T_live_ref, nats
   double condition = 0.0;           ///< weakest over strongest curvature on the finest level
-  int points = 0;                   ///< used on the finest level
+  int points = 0;                   ///< in view on the finest level
   double overlap = 0.0;             ///< fraction of the finest level's points in view
+  bool sees_image = false;          ///< the images have something in common on the finest level
+  bool sees_depth = false;          ///< the geometric term took part there
   double mutual_information = 0.0;  ///< nats, on the finest level that uses it
   double residual_scale = 0.0;      ///< grey levels, on the finest SSD level
+  double correlation = 0.0;         ///< of the images, on the finest SSD level
   int num_levels = 0;
   std::array<LevelRecord, kMaxLevels> levels{};  ///< coarsest first
 };
 
 /// Aligns a frame with a keyframe from the coarsest level to the finest: mutual information or SSD
-/// on each, as the parameters say (Algorithm 1). A level with too few points in view is passed
-/// over.
-Alignment align(const Keyframe& keyframe, const ImagePyramid& live, const Camera& camera,
-                const Eigen::Isometry3d& T_live_ref_start, const Parameters& parameters);
+/// on each, as the parameters say (Algorithm 1), with the geometric term beside SSD, and alone
+/// where the image is of no use. A level with too few points in view is passed over.
+Alignment align(const AlignmentTask& task, const Parameters& parameters);
+
+/// Motion of the scene while the rows of the live image are read, at a pose.
+RowMotion rowMotion(const Eigen::Isometry3d& T_live_previous, double readouts);
 
 }  // namespace mivo

@@ -24,6 +24,7 @@ enum class TrackingReason {
   kInvalidFrame,       ///< size, type or stamp of the frame does not fit
   kTooFewPoints,       ///< too little depth or texture for a keyframe, or to track
   kNoOverlap,          ///< too few of the keyframe's points are in view
+  kNoInformation,      ///< the images have nothing in common: dark, covered, or another place
   kSingular,           ///< the images do not fix all six degrees of freedom
   kImplausibleMotion,  ///< faster than the limits allow
   kNotFinite           ///< the alignment diverged

@@ -6,38 +6,48 @@
 #include <vector>
 
 #include "mivo/core/camera.h"
+#include "mivo/core/contrast_maps.h"
+#include "mivo/core/kernels/kernels.h"
 #include "mivo/core/reference_points.h"
+#include "mivo/core/row_motion.h"
 
 namespace mivo {
 
 /// Where the points of a level fall in the live image, and what they see there. One entry per
 /// point.
 struct LiveSamples {
-  std::vector<float> intensity;        ///< bilinear, grey levels; 0 where not visible
-  std::vector<unsigned char> visible;  ///< 1: in front of the camera and inside of the image
+  std::vector<float> u, v;     ///< pixels of the level; 0 where not visible
+  std::vector<float> visible;  ///< 1: in front of the camera and inside of the image; otherwise 0
+  std::vector<float> value;    ///< intensity or normalised intensity; 0 where not visible
   std::size_t num_visible = 0;
 };
 
-/// The warp of section II-B: samples a level of the live image at π(T X) for every point.
+/// The warp of section II-B, with the time at which each row is read: samples a level of the live
+/// image at π(T X) for every point.
 class Warp {
  public:
-  /// @param camera the live camera of this level. @param threads see the parameter.
-  Warp(const Camera& camera, int threads);
+  /// @param camera the live camera of this level. @param rows motion of the live camera while its
+  /// rows are read. @param threads see the parameter.
+  Warp(const Camera& camera, const RowMotion& rows, int threads);
 
-  /// @param image CV_32FC1, this level of the live image
+  /// Bilinear samples of a CV_32FC1 level, normalised by `contrast` unless that is null.
   void sample(const ReferencePoints& points, const Eigen::Isometry3d& T_live_ref,
-              const cv::Mat& image, LiveSamples& samples) const;
+              const cv::Mat& image, const ContrastMap* contrast, LiveSamples& samples) const;
+
+  const Camera& camera() const { return camera_; }
+  const RowMotion& rows() const { return rows_; }
+
+  /// The kernel's parameters for one pose.
+  kernels::WarpParameters parameters(const Eigen::Isometry3d& T_live_ref) const;
 
  private:
-  struct Projection;
-  std::size_t sampleChunk(const ReferencePoints& points, const Eigen::Isometry3d& T_live_ref,
-                          const cv::Mat& image, std::size_t begin, std::size_t end,
-                          LiveSamples& samples) const;
-
   Camera camera_;
+  RowMotion rows_;
   float max_squared_radius_;
-  bool is_distorted_;
   int threads_;
 };
+
+/// A CV_32FC1 image as the kernels see it.
+kernels::ImageView view(const cv::Mat& image);
 
 }  // namespace mivo

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+#include <vector>
+
+#include "mivo/core/contrast_maps.h"
+#include "mivo/core/frame.h"
+#include "mivo/core/image_pyramid.h"
+#include "mivo/core/joint_histogram.h"
+#include "mivo/core/parameters.h"
+
+namespace mivo {
+
+/// Everything the alignment needs of a frame, whether it is the live one or becomes the keyframe:
+/// grey levels, local contrast and normalised images as the photometric model asks for, and depth.
+class FramePyramid {
+ public:
+  /// Rebuilds from a frame that fits the camera; buffers are reused. The frame's depth is referred
+  /// to, not copied.
+  void build(const Frame& frame, const Parameters& parameters);
+
+  int numLevels() const { return num_levels_; }
+  bool isNormalised() const { return is_normalised_; }
+
+  const cv::Mat& grey(int level) const { return images_.level(level); }  ///< CV_32FC1 0..255
+  const ContrastMaps& contrast() const { return contrast_; }             ///< if isNormalised()
+
+  /// What mutual information compares on a level that uses it: CV_32FC1 0..255.
+  const cv::Mat& informationImage(int level) const;
+  /// The grey levels of it that fill the bins.
+  const IntensityRange& informationRange(int level) const {
+    return ranges_[static_cast<std::size_t>(level)];
+  }
+
+  const Frame& frame() const { return frame_; }
+
+  /// Depth at a pixel of level 0, metres; 0 for no reading.
+  float depthAt(int x, int y) const;
+
+ private:
+  Frame frame_;
+  ImagePyramid images_;
+  ContrastMaps contrast_;
+  std::vector<cv::Mat> normalised_;
+  std::vector<IntensityRange> ranges_;
+  int num_levels_ = 0;
+  bool is_normalised_ = false;
+};
+
+/// Whether a level is aligned by mutual information, rather than by SSD (Algorithm 1).
+bool usesMutualInformation(const Parameters& parameters, int level);
+
+}  // namespace mivo

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "mivo/core/cost_term.h"
+#include "mivo/core/frame_pyramid.h"
+#include "mivo/core/geometric_points.h"
+#include "mivo/core/parameters.h"
+#include "mivo/core/robust_sum.h"
+#include "mivo/core/warp.h"
+
+namespace mivo {
+
+/// Projective point to plane: the live depth Y where a keyframe point X falls should lie in the
+/// plane of X, r = n . (T_ref_live Y - X). Residuals are measured in deviations of a reading, so
+/// the term is in nats like the photometric ones; their scale is estimated, and never below one.
+class GeometricTerm : public CostTerm {
+ public:
+  /// Keeps references to points, live frame and warp. @param warp that of level 0. @param
+  /// num_points how many of the points to use, in their order.
+  GeometricTerm(const GeometricPoints& points, std::size_t num_points, const FramePyramid& live,
+                const Warp& warp, const Parameters& parameters);
+
+  double evaluate(const Eigen::Isometry3d& T_live_ref) override;
+  QuadraticModel linearise(int iteration) override;
+
+  std::size_t numVisible() const { return residuals_.num_visible; }
+
+  /// Scale of the residuals in deviations of a reading, at least 1.
+  double scale() const { return sum_.scale(); }
+
+ private:
+  void addResidual(std::size_t i, const Eigen::Isometry3f& T_live_ref,
+                   const Eigen::Isometry3f& T_ref_live);
+
+  const GeometricPoints& points_;
+  std::size_t num_points_;
+  const FramePyramid& live_;
+  const Warp& warp_;
+  RobustSum sum_;
+  std::vector<float> u_, v_, in_view_;
+  Residuals residuals_;
+  std::array<std::vector<float>, 6> jacobian_;
+};
+
+}  // namespace mivo

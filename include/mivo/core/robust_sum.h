@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "mivo/core/cost_term.h"
+#include "mivo/core/parameters.h"
+
+namespace mivo {
+
+/// Residuals of one term at one pose, one entry per point.
+struct Residuals {
+  std::vector<float> value;    ///< 0 where not visible
+  std::vector<float> visible;  ///< 1 or 0
+  std::size_t num_visible = 0;
+};
+
+/// The robust sum that SSD and the geometric term share: cost and normal equations of residuals
+/// whose scale is estimated from themselves, 1.4826 times the median of their magnitude.
+class RobustSum {
+ public:
+  /// @param min_scale lower bound of the scale, in units of the residuals
+  RobustSum(RobustWeight kind, double min_scale, const Parameters& parameters);
+
+  /// Mean loss of the visible points times the number of all, nats; infinite without any. The first
+  /// call estimates the scale.
+  double cost(const Residuals& residuals);
+
+  /// Model for residuals r(d) = r - J d. In the first iterations of a level the scale is estimated
+  /// anew.
+  QuadraticModel linearise(const Residuals& residuals, const std::array<const float*, 6>& jacobian,
+                           int iteration);
+
+  double scale() const { return scale_; }  ///< 0 before the first cost()
+
+ private:
+  void estimateScale(const Residuals& residuals);
+
+  RobustWeight kind_;
+  double min_scale_;
+  int scale_iterations_;
+  int threads_;
+  double scale_ = 0.0;
+  std::vector<float> magnitudes_;
+};
+
+}  // namespace mivo
