@@ -12,19 +12,22 @@ namespace {
 
 constexpr double kPi = 3.14159265358979323846;
 constexpr int kWaves = 14;
+constexpr double kShortest = 0.13;  // m
+constexpr double kLongest = 1.3;
 
-/// A sum of plane waves of 0.07 to 1 m on a rectangle, at least five pixels long at 2 m, so that
+/// A sum of plane waves of 0.13 to 1.3 m on a rectangle, at least eight pixels long at 2 m, so that
 /// a pixel's centre stands for its area. The sum is bent so that the histogram is skewed.
 class Texture {
  public:
   explicit Texture(std::uint64_t seed) {
     Random random(seed);
     for (int i = 0; i < kWaves; ++i) {
-      const double length = 0.07 * std::pow(1.0 / 0.07, static_cast<double>(i) / (kWaves - 1));
+      const double length =
+          kShortest * std::pow(kLongest / kShortest, static_cast<double>(i) / (kWaves - 1));
       const double angle = random.uniform(0.0, 2.0 * kPi);
       Wave& wave = waves_[static_cast<std::size_t>(i)];
       wave = {2.0 * kPi / length * std::cos(angle), 2.0 * kPi / length * std::sin(angle),
-              random.uniform(0.0, 2.0 * kPi), 0.5 + 0.5 * std::sqrt(length)};
+              random.uniform(0.0, 2.0 * kPi), std::sqrt(length)};
       sum_ += wave.amplitude;
     }
   }
@@ -35,7 +38,7 @@ class Texture {
     for (const Wave& wave : waves_) {
       value += wave.amplitude * std::sin(wave.u * u + wave.v * v + wave.phase);
     }
-    const double t = 1.0 / (1.0 + std::exp(-10.0 * value / sum_));
+    const double t = 1.0 / (1.0 + std::exp(-8.0 * value / sum_));
     return t * (0.4 + 0.6 * t);
   }
 

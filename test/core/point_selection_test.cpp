@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mivo/core/point_selection.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "mivo/core/depth_pyramid.h"
+#include "support/analytic_image.h"
+#include "support/random_pose.h"
+
+namespace mivo {
+namespace {
+
+constexpr int kWidth = 96;
+constexpr int kHeight = 64;
+
+cv::Mat flatDepth() {
+  return {kHeight, kWidth, CV_32FC1, cv::Scalar(2.0F)};
+}
+
+SelectionLimits limits(int num_points) {
+  return {num_points, 1.0F, 16, 0.06F};
+}
+
+cv::Mat noiseImage(std::uint64_t seed) {
+  testing::Random random(seed);
+  cv::Mat image(kHeight, kWidth, CV_32FC1);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      image.at<float>(y, x) = static_cast<float>(random.uniform(0.0, 255.0));
+    }
+  }
+  return image;
+}
+
+float squaredGradient(const cv::Mat& image, int x, int y) {
+  const float gx = 0.5F * (image.at<float>(y, x + 1) - image.at<float>(y, x - 1));
+  const float gy = 0.5F * (image.at<float>(y + 1, x) - image.at<float>(y - 1, x));
+  return gx * gx + gy * gy;
+}
+
+std::map<std::pair<int, int>, int> countsPerCell(const std::vector<Pixel>& pixels, int size) {
+  std::map<std::pair<int, int>, int> counts;
+  for (const Pixel& pixel : pixels) ++counts[{pixel.x / size, pixel.y / size}];
+  return counts;
+}
+
+bool isSame(const std::vector<Pixel>& a, const std::vector<Pixel>& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const Pixel& p, const Pixel& q) { return p.x == q.x && p.y == q.y; });
+}
+
+// A soft step along a line of any direction: of the pixels across it only the steepest stays.
+TEST(SelectSalientTest, AnEdgeBecomesAThinLine) {
+  for (double angle = 0.05; angle < 3.1; angle += 0.4) {
+    const Eigen::Vector2d normal(std::cos(angle), std::sin(angle));
+    const double place = normal.dot(Eigen::Vector2d(47.7, 31.6));
+    const auto step = [&](const Eigen::Vector2d& p) {
+      return testing::ImageJet{
+          128.0 + 100.0 * std::tanh(0.4 * (normal.dot(p) - place)), {0, 0}, {}};
+    };
+    const cv::Mat image = testing::rasterised(step, kWidth, kHeight);
+    const std::vector<Pixel> pixels = selectSalient(image, flatDepth(), limits(100000));
+    ASSERT_GT(pixels.size(), 30U) << angle;
+    for (const Pixel& pixel : pixels) {
+      const double distance = std::abs(normal.dot(Eigen::Vector2d(pixel.x, pixel.y)) - place);
+      EXPECT_LT(distance, 1.2) << "angle " << angle << " at " << pixel.x << ' ' << pixel.y;
+    }
+  }
+}
+
+TEST(SelectSalientTest, OfTwoEquallySteepPixelsExactlyOneIsTaken) {
+  cv::Mat image(kHeight, kWidth, CV_32FC1, cv::Scalar(20.0F));
+  image.colRange(40, kWidth) = 220.0F;  // gradient 100 in the columns 39 and 40
+  const std::vector<Pixel> pixels = selectSalient(image, flatDepth(), limits(100000));
+  EXPECT_EQ(pixels.size(), static_cast<std::size_t>(kHeight - 4));
+  std::set<int> columns;
+  for (const Pixel& pixel : pixels) columns.insert(pixel.x);
+  EXPECT_EQ(columns.size(), 1U);
+}
+
+TEST(SelectSalientTest, NoMoreThanAskedForAndTheSameFromEveryFullCell) {
+  for (const int wanted : {24, 100, 250}) {
+    const std::vector<Pixel> pixels = selectSalient(noiseImage(1), flatDepth(), limits(wanted));
+    const auto counts = countsPerCell(pixels, 16);
+    EXPECT_EQ(counts.size(), 24U);
+    EXPECT_LE(pixels.size(), static_cast<std::size_t>(wanted));
+    for (const auto& [cell, count] : counts) EXPECT_EQ(count, wanted / 24) << cell.first;
+  }
+}
+
+TEST(SelectSalientTest, WhatEmptyCellsDoNotUseGoesToTheOthers) {
+  cv::Mat image = noiseImage(2);
+  image.colRange(0, 48) = 100.0F;  // nothing to choose in the left half
+  const std::vector<Pixel> pixels = selectSalient(image, flatDepth(), limits(240));
+  EXPECT_LE(pixels.size(), 240U);
+  // The 12 cells on the right share what 24 would, up to one point per cell.
+  EXPECT_GT(pixels.size(), 240U - 15U);
+}
+
+TEST(SelectSalientTest, EachCellGivesItsSteepestPoints) {
+  const cv::Mat image = noiseImage(3);
+  const std::vector<Pixel> all = selectSalient(image, flatDepth(), limits(100000));
+  const std::vector<Pixel> some = selectSalient(image, flatDepth(), limits(120));
+  std::map<std::pair<int, int>, std::vector<float>> strengths;
+  for (const Pixel& p : all) {
+    strengths[{p.x / 16, p.y / 16}].push_back(squaredGradient(image, p.x, p.y));
+  }
+  for (auto& entry : strengths) {
+    std::sort(entry.second.begin(), entry.second.end(), std::greater<float>());
+  }
+  for (const Pixel& p : some) {
+    const std::vector<float>& cell = strengths[{p.x / 16, p.y / 16}];
+    EXPECT_GE(squaredGradient(image, p.x, p.y), cell[4]);
+  }
+}
+
+TEST(SelectSalientTest, WeakGradientsAreNoPoints) {
+  const cv::Mat image =
+      testing::rasterised(testing::waveImage(128.0, {{3.0, {0.25, 0.0}, 0.0}}), kWidth, kHeight);
+  // The gradient's amplitude is 3 * sin(0.25) = 0.742.
+  SelectionLimits low = limits(100000);
+  low.min_gradient = 0.70F;
+  EXPECT_FALSE(selectSalient(image, flatDepth(), low).empty());
+  low.min_gradient = 0.76F;
+  EXPECT_TRUE(selectSalient(image, flatDepth(), low).empty());
+}
+
+TEST(SelectSalientTest, AConstantImageHasNoPoints) {
+  SelectionLimits none = limits(100);
+  none.min_gradient = 0.0F;
+  const cv::Mat image(kHeight, kWidth, CV_32FC1, cv::Scalar(77.0F));
+  EXPECT_TRUE(selectSalient(image, flatDepth(), none).empty());
+}
+
+TEST(SelectSalientTest, NoPointIsOnADepthEdgeOrAHole) {
+  cv::Mat depth = flatDepth();
+  depth.colRange(50, kWidth) = 1.0F;
+  depth(cv::Rect(10, 10, 9, 7)) = 0.0F;
+  const std::vector<Pixel> pixels = selectSalient(noiseImage(4), depth, limits(100000));
+  ASSERT_GT(pixels.size(), 200U);
+  for (const Pixel& pixel : pixels) {
+    EXPECT_TRUE(isSmoothDepth(depth, pixel.x, pixel.y, 0.06F));
+    EXPECT_TRUE(pixel.x < 49 || pixel.x > 50);
+  }
+}
+
+TEST(SelectSalientTest, PointsKeepTwoPixelsFromTheBorderAndComeInReadingOrder) {
+  const std::vector<Pixel> pixels = selectSalient(noiseImage(5), flatDepth(), limits(300));
+  int before = -1;
+  for (const Pixel& pixel : pixels) {
+    EXPECT_GE(pixel.x, 2);
+    EXPECT_GE(pixel.y, 2);
+    EXPECT_LT(pixel.x, kWidth - 2);
+    EXPECT_LT(pixel.y, kHeight - 2);
+    EXPECT_GT(pixel.y * kWidth + pixel.x, before);
+    before = pixel.y * kWidth + pixel.x;
+  }
+}
+
+TEST(SelectSalientTest, TheSameImageGivesTheSamePoints) {
+  const std::vector<Pixel> first = selectSalient(noiseImage(6), flatDepth(), limits(300));
+  EXPECT_TRUE(isSame(first, selectSalient(noiseImage(6), flatDepth(), limits(300))));
+  EXPECT_FALSE(isSame(first, selectSalient(noiseImage(7), flatDepth(), limits(300))));
+}
+
+TEST(SelectAllTest, EveryPixelOfASmoothSurfaceButTheBorder) {
+  EXPECT_EQ(selectAll(flatDepth(), 0.06F).size(),
+            static_cast<std::size_t>((kWidth - 2) * (kHeight - 2)));
+  cv::Mat depth = flatDepth();
+  depth.at<float>(20, 30) = 0.0F;
+  EXPECT_EQ(selectAll(depth, 0.06F).size(),
+            static_cast<std::size_t>((kWidth - 2) * (kHeight - 2) - 9));
+  EXPECT_TRUE(selectAll(cv::Mat(2, 2, CV_32FC1, cv::Scalar(1.0F)), 0.06F).empty());
+}
+
+}  // namespace
+}  // namespace mivo
