@@ -103,8 +103,9 @@ void SequenceWriter::writeFrame(double stamp, const cv::Mat& image, double depth
     throw Error(fmt::format("frame {} (depth {}) for {} is not newer than the one before it",
                             image_stamp, depth_text, folder_));
   }
+  const cv::Mat stored_depth = storedDepth(depth);  // refused before anything is written
   writePng(inside(folder_, image_name), image, Overwrite::kNo);
-  writePng(inside(folder_, depth_name), storedDepth(depth), Overwrite::kNo);
+  writePng(inside(folder_, depth_name), stored_depth, Overwrite::kNo);
   images_->write(image_stamp + " " + image_name + "\n");
   depths_->write(depth_text + " " + depth_name + "\n");
   associations_->write(image_stamp + " " + image_name + " " + depth_text + " " + depth_name + "\n");

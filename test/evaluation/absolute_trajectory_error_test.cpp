@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mivo/evaluation/absolute_trajectory_error.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "mivo/core/se3.h"
+#include "support/error_text.h"
+
+namespace mivo {
+namespace {
+
+Trajectory circle(int count) {
+  Trajectory trajectory;
+  for (int i = 0; i < count; ++i) {
+    StampedPose pose;
+    pose.stamp = 0.1 * i;
+    const double angle = 2.0 * M_PI * i / count;
+    pose.pose.translation() << std::cos(angle), std::sin(angle), 0.0;
+    trajectory.push_back(pose);
+  }
+  return trajectory;
+}
+
+TEST(AbsoluteTrajectoryErrorTest, MovedTrajectoryHasNone) {
+  const Trajectory truth = circle(36);
+  Trajectory estimate = truth;
+  Vector6 twist;
+  twist << 3.0, 2.0, 1.0, 0.3, -0.2, 2.0;
+  const Eigen::Isometry3d T = expSe3(twist);
+  for (StampedPose& pose : estimate) pose.pose = T.inverse() * pose.pose;
+  const AbsoluteTrajectoryError error = absoluteTrajectoryError(truth, estimate, 0.02);
+  EXPECT_TRUE(error.T_truth_estimate.isApprox(T, 1e-12));
+  ASSERT_EQ(error.errors.size(), 36U);
+  for (const double value : error.errors) EXPECT_NEAR(value, 0.0, 1e-12);
+}
+
+TEST(AbsoluteTrajectoryErrorTest, WrongRadiusIsSeenAtEachPose) {
+  const Trajectory truth = circle(36);
+  Trajectory estimate = truth;
+  for (StampedPose& pose : estimate) pose.pose.translation() *= 1.1;  // no scale is corrected
+  for (const double value : absoluteTrajectoryError(truth, estimate, 0.02).errors) {
+    EXPECT_NEAR(value, 0.1, 1e-12);
+  }
+}
+
+TEST(AbsoluteTrajectoryErrorTest, OnlyPosesWithTruthNearbyCount) {
+  const Trajectory truth = circle(36);
+  Trajectory estimate = truth;
+  for (StampedPose& pose : estimate) pose.stamp += 0.015;
+  estimate[3].stamp += 0.03;
+  EXPECT_EQ(absoluteTrajectoryError(truth, estimate, 0.02).errors.size(), 35U);
+}
+
+TEST(AbsoluteTrajectoryErrorTest, TooFewCommonPosesAreAnError) {
+  const Trajectory truth = circle(36);
+  Trajectory estimate = truth;
+  for (StampedPose& pose : estimate) pose.stamp += 100.0;
+  EXPECT_EQ(
+      errorText([&] { absoluteTrajectoryError(truth, estimate, 0.02); }).find("only 0 of 36 poses"),
+      0U);
+}
+
+}  // namespace
+}  // namespace mivo
