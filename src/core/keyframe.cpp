@@ -9,14 +9,13 @@ namespace {
 
 std::vector<Pixel> selectPoints(const cv::Mat& image, const cv::Mat& depth, bool is_coarsest,
                                 const Parameters& parameters) {
-  const auto edge_ratio = static_cast<float>(parameters.depth_edge_ratio);
-  if (is_coarsest) return selectAll(depth, edge_ratio);
+  if (is_coarsest) return selectAll(depth);
   const double wanted = parameters.point_fraction * static_cast<double>(image.total());
   SelectionLimits limits{};
   limits.num_points = std::max(parameters.min_points, static_cast<int>(std::lround(wanted)));
   limits.min_gradient = static_cast<float>(parameters.min_gradient);
   limits.cell_size = parameters.point_cell_size;
-  limits.depth_edge_ratio = edge_ratio;
+  limits.depth_edge_ratio = static_cast<float>(parameters.depth_edge_ratio);
   return selectSalient(image, depth, limits);
 }
 

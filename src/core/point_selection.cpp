@@ -113,11 +113,12 @@ std::vector<Pixel> selectSalient(const cv::Mat& image, const cv::Mat& depth,
   return pixels;
 }
 
-std::vector<Pixel> selectAll(const cv::Mat& depth, float depth_edge_ratio) {
+std::vector<Pixel> selectAll(const cv::Mat& depth) {
   std::vector<Pixel> pixels;
   for (int y = 1; y + 1 < depth.rows; ++y) {
+    const auto* row = depth.ptr<float>(y);
     for (int x = 1; x + 1 < depth.cols; ++x) {
-      if (isSmoothDepth(depth, x, y, depth_edge_ratio)) pixels.push_back({x, y});
+      if (row[x] > 0.0F) pixels.push_back({x, y});
     }
   }
   return pixels;

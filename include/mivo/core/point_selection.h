@@ -26,7 +26,8 @@ struct SelectionLimits {
 std::vector<Pixel> selectSalient(const cv::Mat& image, const cv::Mat& depth,
                                  const SelectionLimits& limits);
 
-/// Every pixel on a smooth surface with depth: for the coarsest level.
-std::vector<Pixel> selectAll(const cv::Mat& depth, float depth_edge_ratio);
+/// Every pixel with depth that has eight neighbours: for the coarsest level, where a smooth surface
+/// around each would leave too few.
+std::vector<Pixel> selectAll(const cv::Mat& depth);
 
 }  // namespace mivo
