@@ -21,8 +21,11 @@ std::vector<Pixel> selectPoints(const cv::Mat& image, const cv::Mat& depth, bool
 
 }  // namespace
 
-void Keyframe::build(const FramePyramid& frame, const Camera& camera, const RowMotion& rows,
+void Keyframe::build(const FramePyramid& frame, const Camera& camera,
+                     const Vector6& twist_per_period, double readout,
                      const Parameters& parameters) {
+  twist_per_period_ = twist_per_period;
+  const RowMotion rows{readout * twist_per_period};
   const int num_levels = frame.numLevels();
   levels_.resize(static_cast<std::size_t>(num_levels));
   frame.frame().image.copyTo(image_);

@@ -72,8 +72,8 @@ class Odometry::Implementation {
   void track(const Frame& frame, const Eigen::Isometry3d& T_odom_camera_start);
   void accept(const Frame& frame, const Alignment& alignment);
   void lose(const Frame& frame, const Eigen::Isometry3d& guess, TrackingReason reason);
-  bool makeKeyframe(const Eigen::Isometry3d& T_odom_camera, const RowMotion& rows);
-  double readouts(double stamp) const;
+  bool makeKeyframe(const Eigen::Isometry3d& T_odom_camera, const Vector6& twist_per_period);
+  double readout() const;
   TrackingReason judge(const Frame& frame, const Alignment& alignment) const;
 
   MotionModel motion_;
@@ -124,7 +124,7 @@ void Odometry::Implementation::process(const Frame& frame, const Eigen::Isometry
   }
   if (has_keyframe_) {
     track(frame, T_odom_camera_start);
-  } else if (makeKeyframe(T_odom_camera_start, RowMotion{})) {
+  } else if (makeKeyframe(T_odom_camera_start, Vector6::Zero())) {
     result_.state = TrackingState::kTracking;
     result_.T_odom_camera = T_odom_camera_ = T_odom_camera_start;
     result_.covariance = diagonalCovariance(kFloorTranslation, kFloorRotation);
@@ -147,7 +147,8 @@ void Odometry::Implementation::track(const Frame& frame,
   const double begin = threadMilliseconds();
   const Alignment alignment =
       align({keyframe_, live_, camera_, T_odom_camera_start.inverse() * T_odom_keyframe_,
-             T_odom_camera_.inverse() * T_odom_keyframe_, readouts(frame.stamp)},
+             T_odom_camera_.inverse() * T_odom_keyframe_,
+             motion_.periodsSince(frame.stamp, parameters_), readout()},
             parameters_);
   result_.milliseconds.tracking = threadMilliseconds() - begin;
   result_.num_levels = alignment.num_levels;
@@ -189,8 +190,8 @@ TrackingReason Odometry::Implementation::judge(const Frame& frame,
 void Odometry::Implementation::accept(const Frame& frame, const Alignment& alignment) {
   const Eigen::Isometry3d T_odom_previous = T_odom_camera_;
   T_odom_camera_ = orthonormalised(T_odom_keyframe_ * alignment.T_live_ref.inverse());
-  const RowMotion rows =
-      rowMotion(T_odom_camera_.inverse() * T_odom_previous, readouts(frame.stamp));
+  const Vector6 twist_per_period = localCoordinates(T_odom_camera_.inverse() * T_odom_previous) /
+                                   motion_.periodsSince(frame.stamp, parameters_);
   pose_stamp_ = frame.stamp;
   lost_in_a_row_ = 0;
   motion_.add(frame.stamp, T_odom_camera_);
@@ -203,7 +204,7 @@ void Odometry::Implementation::accept(const Frame& frame, const Alignment& align
     first_quality_ = {alignment.mutual_information, alignment.residual_scale};
   }
   if (needsNewKeyframe(alignment, keyframe_, first_quality_, parameters_)) {
-    makeKeyframe(T_odom_camera_, rows);
+    makeKeyframe(T_odom_camera_, twist_per_period);
   }
 }
 
@@ -217,7 +218,8 @@ void Odometry::Implementation::lose(const Frame& frame, const Eigen::Isometry3d&
   // One frame may be bridged by its velocity; after that the last good pose is the best guess.
   if (lost_in_a_row_ > 1) motion_.stop();
   if (lost_in_a_row_ >= parameters_.lost_frames &&
-      parameters_.keyframe_policy != KeyframePolicy::kFirst && makeKeyframe(guess, RowMotion{})) {
+      parameters_.keyframe_policy != KeyframePolicy::kFirst &&
+      makeKeyframe(guess, Vector6::Zero())) {
     ++segment_;
     lost_in_a_row_ = 0;
     motion_.stop();
@@ -227,18 +229,17 @@ void Odometry::Implementation::lose(const Frame& frame, const Eigen::Isometry3d&
   }
 }
 
-/// Read-out time of the image in intervals between the last trusted frame and this one.
-double Odometry::Implementation::readouts(double stamp) const {
+/// Time to read the rows of an image as a share of the frame period.
+double Odometry::Implementation::readout() const {
   const double period = motion_.period(parameters_);
-  if (!(period > 0.0)) return 0.0;
-  return parameters_.rolling_shutter_readout / (period * motion_.periodsSince(stamp, parameters_));
+  return period > 0.0 ? std::min(1.0, parameters_.rolling_shutter_readout / period) : 0.0;
 }
 
 bool Odometry::Implementation::makeKeyframe(const Eigen::Isometry3d& T_odom_camera,
-                                            const RowMotion& rows) {
+                                            const Vector6& twist_per_period) {
   const double begin = threadMilliseconds();
   Keyframe candidate;
-  candidate.build(live_, camera_, rows, parameters_);
+  candidate.build(live_, camera_, twist_per_period, readout(), parameters_);
   result_.milliseconds.keyframe = threadMilliseconds() - begin;
   if (candidate.numPoints() < static_cast<std::size_t>(parameters_.lost_points)) return false;
   keyframe_ = std::move(candidate);

@@ -12,6 +12,14 @@
 namespace mivo {
 namespace {
 
+// Read-out times are measured where noise is already averaged, but rows still differ.
+constexpr int kReadoutLevel = 1;
+
+/// Motion of the scene per frame period in the axes of the live camera at a pose.
+Vector6 twistPerPeriod(const AlignmentTask& task, const Eigen::Isometry3d& T_live_ref) {
+  return localCoordinates(T_live_ref * task.T_previous_ref.inverse()) / task.periods;
+}
+
 /// One level of the descent: its warp, its terms, and what they found.
 class LevelAligner {
  public:
@@ -21,7 +29,7 @@ class LevelAligner {
         level_(level),
         parameters_(parameters),
         points_(task.keyframe.level(level).points),
-        rows_(rowMotion(alignment.T_live_ref * task.T_previous_ref.inverse(), task.readouts)),
+        rows_{task.readout * twistPerPeriod(task, alignment.T_live_ref)},
         warp_(task.camera.atLevel(level), rows_, parameters.threads),
         finest_warp_(task.camera, rows_, parameters.threads),
         alignment_(alignment),
@@ -115,6 +123,16 @@ class LevelAligner {
     record_.visible = static_cast<int>(term.numVisible());
     alignment_.residual_scale = term.scale();
     alignment_.correlation = term.correlation();
+    if (level_ == kReadoutLevel && alignment_.sees_image) measureReadoutHere(term);
+  }
+
+  void measureReadoutHere(const SsdTerm& term) {
+    RowVelocities velocities;
+    velocities.live = twistPerPeriod(task_, alignment_.T_live_ref);
+    velocities.keyframe = task_.keyframe.twistPerPeriod();
+    velocities.T_live_ref = alignment_.T_live_ref;
+    alignment_.readout = measureReadout(points_, term.residuals(), term.samples().v,
+                                        warp_.camera().height, term.scale(), velocities);
   }
 
   const AlignmentTask& task_;
@@ -129,12 +147,6 @@ class LevelAligner {
 };
 
 }  // namespace
-
-RowMotion rowMotion(const Eigen::Isometry3d& T_live_previous, double readouts) {
-  RowMotion rows;
-  if (readouts > 0.0) rows.twist = readouts * localCoordinates(T_live_previous);
-  return rows;
-}
 
 Alignment align(const AlignmentTask& task, const Parameters& parameters) {
   Alignment alignment;

@@ -25,10 +25,12 @@ struct KeyframeLevel {
 /// coarsest level uses all pixels with depth, the others the salient ones (section III-C).
 class Keyframe {
  public:
-  /// Fills the keyframe from a frame; buffers are reused. @param rows motion of the camera while
-  /// the frame's rows were read.
-  void build(const FramePyramid& frame, const Camera& camera, const RowMotion& rows,
-             const Parameters& parameters);
+  /// Fills the keyframe from a frame; buffers are reused. @param twist_per_period motion of the scene
+  /// in the camera's axes per frame period. @param readout share of it in which rows were read.
+  void build(const FramePyramid& frame, const Camera& camera, const Vector6& twist_per_period,
+             double readout, const Parameters& parameters);
+
+  const Vector6& twistPerPeriod() const { return twist_per_period_; }
 
   int numLevels() const { return static_cast<int>(levels_.size()); }
   const KeyframeLevel& level(int level) const { return levels_[static_cast<std::size_t>(level)]; }
@@ -48,6 +50,7 @@ class Keyframe {
   DepthPyramid depth_pyramid_;
   GeometricPoints geometric_points_;
   cv::Mat image_;
+  Vector6 twist_per_period_ = Vector6::Zero();
 };
 
 }  // namespace mivo

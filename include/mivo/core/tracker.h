@@ -8,7 +8,7 @@
 #include "mivo/core/frame_pyramid.h"
 #include "mivo/core/keyframe.h"
 #include "mivo/core/parameters.h"
-#include "mivo/core/row_motion.h"
+#include "mivo/core/readout_estimator.h"
 #include "mivo/core/tracking_result.h"
 
 namespace mivo {
@@ -19,10 +19,12 @@ struct AlignmentTask {
   const FramePyramid& live;
   const Camera& camera;
   Eigen::Isometry3d T_live_ref = Eigen::Isometry3d::Identity();  ///< start
-  /// Pose of the frame before the live one, to know how the camera moves while rows are read;
-  /// `readouts` is the read-out time in intervals between the two frames, 0: global shutter.
+  /// Pose of the frame before the live one and the frame periods between them: how the camera
+  /// moves.
   Eigen::Isometry3d T_previous_ref = Eigen::Isometry3d::Identity();
-  double readouts = 0.0;
+  double periods = 1.0;
+  double readout =
+      0.0;  ///< time to read the rows as a share of the frame period, 0: global shutter
 };
 
 /// Result of aligning one frame with a keyframe.
@@ -37,6 +39,7 @@ struct Alignment {
   double mutual_information = 0.0;  ///< nats, on the finest level that uses it
   double residual_scale = 0.0;      ///< grey levels, on the finest SSD level
   double correlation = 0.0;         ///< of the images, on the finest SSD level
+  ReadoutMeasurement readout;       ///< what the frame says about it
   int num_levels = 0;
   std::array<LevelRecord, kMaxLevels> levels{};  ///< coarsest first
 };
@@ -45,8 +48,5 @@ struct Alignment {
 /// on each, as the parameters say (Algorithm 1), with the geometric term beside SSD, and alone
 /// where the image is of no use. A level with too few points in view is passed over.
 Alignment align(const AlignmentTask& task, const Parameters& parameters);
-
-/// Motion of the scene while the rows of the live image are read, at a pose.
-RowMotion rowMotion(const Eigen::Isometry3d& T_live_previous, double readouts);
 
 }  // namespace mivo

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "mivo/core/reference_points.h"
+#include "mivo/core/robust_sum.h"
+#include "mivo/core/se3.h"
+
+namespace mivo {
+
+/// What one frame says about the read-out time, as a share of the frame period: by how much to
+/// change it, and how sure that is (inverse variance, as far as the residuals know).
+struct ReadoutMeasurement {
+  double correction = 0.0;
+  double information = 0.0;
+};
+
+/// Scene motion per frame period in the axes of the keyframe, of the live camera and of the
+/// keyframe when it was taken, and the pose between them.
+struct RowVelocities {
+  Vector6 live = Vector6::Zero();      ///< (v, w) in the axes of the live camera
+  Vector6 keyframe = Vector6::Zero();  ///< (v, w) in the axes of the keyframe
+  Eigen::Isometry3d T_live_ref = Eigen::Isometry3d::Identity();
+};
+
+/// Measures from the residuals at the end of a level: the read-out is a seventh unknown beside the
+/// pose, which is eliminated. @param live_rows row of each point in the live image, pixels;
+/// @param height of the level, @param scale of the residuals.
+ReadoutMeasurement measureReadout(const ReferencePoints& points, const Residuals& residuals,
+                                  const std::vector<float>& live_rows, double height, double scale,
+                                  const RowVelocities& velocities);
+
+}  // namespace mivo
