@@ -1,0 +1,277 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mivo/openni2/openni2_device.h"
+
+#include <OpenNI.h>
+
+#include <array>
+#include <atomic>
+#include <type_traits>
+#include <utility>
+
+#include "device_address.h"
+#include "mivo/openni2/device_error.h"
+#include "openni2_library.h"
+#include "video_mode.h"
+
+namespace mivo {
+namespace {
+
+constexpr std::array<StreamKind, kStreamKinds> kKinds{StreamKind::kColor, StreamKind::kDepth};
+
+openni::SensorType sensorOf(StreamKind kind) {
+  return kind == StreamKind::kColor ? openni::SENSOR_COLOR : openni::SENSOR_DEPTH;
+}
+
+template <typename Value>
+std::optional<Value> readProperty(const openni::VideoStream& stream, int property) {
+  Value value{};
+  if (stream.getProperty<Value>(property, &value) != openni::STATUS_OK) {
+    return std::nullopt;
+  }
+  return value;
+}
+
+}  // namespace
+
+class OpenNi2Device::Implementation : private openni::OpenNI::DeviceDisconnectedListener {
+ public:
+  explicit Implementation(const DeviceRequest& request) : library_(OpenNi2Library::acquire()) {
+    openAddress(*library_, request.address, device_);
+    describe();
+    // From here on the destructor does not run when something throws: members clean up themselves.
+    createStreams(request);
+    setRegistration(request);
+    setSynchronisation(request);
+    setPlayback(request);
+    openni::OpenNI::addDeviceDisconnectedListener(this);
+  }
+
+  ~Implementation() override {
+    openni::OpenNI::removeDeviceDisconnectedListener(this);
+    for (openni::VideoStream& stream : streams_) {
+      stream.stop();
+    }
+  }
+
+  const DeviceDescription& description() const { return description_; }
+  bool isConnected() const { return connected_; }
+
+  void start(StreamKind kind) {
+    bool& running = running_[static_cast<std::size_t>(kind)];
+    if (running) {
+      return;
+    }
+    if (stream(kind).start() != openni::STATUS_OK) {
+      throw DeviceError(DeviceFault::kUsb, description_.name + " does not start its " +
+                                               mivo::toString(kind) + " stream: " + sdkError());
+    }
+    running = true;
+  }
+
+  void stop(StreamKind kind) {
+    bool& running = running_[static_cast<std::size_t>(kind)];
+    if (running) {
+      stream(kind).stop();
+      running = false;
+    }
+  }
+
+  bool read(std::chrono::milliseconds timeout,
+            const std::function<void(const ImageView&)>& callback) {
+    std::array<openni::VideoStream*, kStreamKinds> running{};
+    int count = 0;
+    for (StreamKind kind : kKinds) {
+      if (running_[static_cast<std::size_t>(kind)]) {
+        running[static_cast<std::size_t>(count++)] = &stream(kind);
+      }
+    }
+    int ready = -1;
+    const openni::Status status = openni::OpenNI::waitForAnyStream(
+        running.data(), count, &ready, static_cast<int>(timeout.count()));
+    if (status == openni::STATUS_TIME_OUT) {
+      return false;
+    }
+    openni::VideoFrameRef frame;
+    if (status != openni::STATUS_OK || ready < 0 ||
+        running[static_cast<std::size_t>(ready)]->readFrame(&frame) != openni::STATUS_OK) {
+      throw DeviceError(DeviceFault::kLost, description_.name + " cannot be read: " + sdkError());
+    }
+    callback(viewOf(frame));
+    return true;
+  }
+
+  void applySettings(const CameraSettings& settings) {
+    // Auto exposure first: while it is on, exposure and gain are the camera's own.
+    setProperty(openni::STREAM_PROPERTY_AUTO_EXPOSURE, settings.auto_exposure);
+    setProperty(openni::STREAM_PROPERTY_AUTO_WHITE_BALANCE, settings.auto_white_balance);
+    if (!settings.auto_exposure.value_or(false)) {
+      setProperty(openni::STREAM_PROPERTY_EXPOSURE, settings.exposure);
+      setProperty(openni::STREAM_PROPERTY_GAIN, settings.gain);
+    }
+  }
+
+  CameraSettings settings() {
+    const openni::VideoStream& color = stream(StreamKind::kColor);
+    CameraSettings settings;
+    if (const auto on = readProperty<OniBool>(color, openni::STREAM_PROPERTY_AUTO_EXPOSURE)) {
+      settings.auto_exposure = *on != 0;
+    }
+    if (const auto on = readProperty<OniBool>(color, openni::STREAM_PROPERTY_AUTO_WHITE_BALANCE)) {
+      settings.auto_white_balance = *on != 0;
+    }
+    settings.exposure = readProperty<int>(color, openni::STREAM_PROPERTY_EXPOSURE);
+    settings.gain = readProperty<int>(color, openni::STREAM_PROPERTY_GAIN);
+    return settings;
+  }
+
+ private:
+  openni::VideoStream& stream(StreamKind kind) { return streams_[static_cast<std::size_t>(kind)]; }
+
+  void onDeviceDisconnected(const openni::DeviceInfo* info) override {
+    if (description_.uri == info->getUri()) {
+      connected_ = false;
+    }
+  }
+
+  void describe() {
+    const openni::DeviceInfo& info = device_.getDeviceInfo();
+    description_.uri = info.getUri();
+    description_.is_recording = device_.isFile();
+    description_.name = description_.is_recording
+                            ? "Recording"
+                            : oneLine(std::string(info.getVendor()) + " " + info.getName());
+    description_.serial = serialNumber(device_);
+  }
+
+  void createStreams(const DeviceRequest& request) {
+    for (StreamKind kind : kKinds) {
+      const bool is_color = kind == StreamKind::kColor;
+      if (!device_.hasSensor(sensorOf(kind))) {
+        throw DeviceError(is_color ? DeviceFault::kNoColor : DeviceFault::kNoDepth,
+                          description_.name + " has no " + mivo::toString(kind) + " stream");
+      }
+      openni::VideoStream& stream = this->stream(kind);
+      if (stream.create(device_, sensorOf(kind)) != openni::STATUS_OK) {
+        throw DeviceError(DeviceFault::kUsb, description_.name + " does not open its " +
+                                                 mivo::toString(kind) + " stream: " + sdkError());
+      }
+      setVideoMode(stream, kind, request, description_);
+      stream.setMirroringEnabled(false);
+      if (stream.getMirroringEnabled()) {
+        note(std::string("The ") + mivo::toString(kind) + " image of " + description_.name +
+             " is mirrored and cannot be turned: do not use it for odometry");
+      }
+    }
+    openni::VideoStream& color = stream(StreamKind::kColor);
+    description_.color_field_of_view = color.getHorizontalFieldOfView();
+    description_.depth_field_of_view = stream(StreamKind::kDepth).getHorizontalFieldOfView();
+    description_.has_camera_settings = color.getCameraSettings() != nullptr;
+    if (!description_.has_camera_settings && !description_.is_recording) {
+      note(description_.name + " has no settings for exposure and white balance");
+    }
+  }
+
+  void setRegistration(const DeviceRequest& request) {
+    const auto mode = request.registration ? openni::IMAGE_REGISTRATION_DEPTH_TO_COLOR
+                                           : openni::IMAGE_REGISTRATION_OFF;
+    if (device_.getImageRegistrationMode() == mode && request.registration) {
+      return;
+    }
+    if (description_.is_recording) {
+      // A recording keeps its pixels; whether they were registered is not always written into it.
+      if (request.registration) {
+        note("The recording does not say that its depth is registered to colour; taken as such");
+      }
+      return;
+    }
+    if (request.registration && (!device_.isImageRegistrationModeSupported(mode) ||
+                                 device_.setImageRegistrationMode(mode) != openni::STATUS_OK ||
+                                 device_.getImageRegistrationMode() != mode)) {
+      throw DeviceError(DeviceFault::kNoRegistration,
+                        description_.name + " cannot register depth to colour");
+    }
+    if (!request.registration && device_.isImageRegistrationModeSupported(mode)) {
+      device_.setImageRegistrationMode(mode);
+    }
+  }
+
+  void setSynchronisation(const DeviceRequest& request) {
+    if (description_.is_recording) {
+      return;
+    }
+    const openni::Status status = device_.setDepthColorSyncEnabled(request.synchronise);
+    if (request.synchronise &&
+        (status != openni::STATUS_OK || !device_.getDepthColorSyncEnabled())) {
+      note(description_.name +
+           " does not expose colour and depth together; they are paired by time alone");
+    }
+  }
+
+  void setPlayback(const DeviceRequest& request) {
+    if (openni::PlaybackControl* playback = device_.getPlaybackControl()) {
+      playback->setSpeed(1.0F);
+      playback->setRepeatEnabled(request.repeat);
+    }
+  }
+
+  template <typename Value>
+  void setProperty(int property, const std::optional<Value>& value) {
+    if (!value) {
+      return;
+    }
+    // A refusal shows when the settings are read back.
+    if constexpr (std::is_same_v<Value, bool>) {
+      stream(StreamKind::kColor).setProperty<OniBool>(property, *value ? 1 : 0);
+    } else {
+      stream(StreamKind::kColor).setProperty<Value>(property, *value);
+    }
+  }
+
+  void note(const std::string& line) { description_.notes.push_back(line); }
+
+  std::shared_ptr<OpenNi2Library> library_;  // first: goes last
+  openni::Device device_;
+  std::array<openni::VideoStream, kStreamKinds> streams_;
+  std::array<bool, kStreamKinds> running_{};
+  std::atomic<bool> connected_{true};
+  DeviceDescription description_;
+};
+
+OpenNi2Device::OpenNi2Device(std::unique_ptr<Implementation> implementation)
+    : implementation_(std::move(implementation)) {}
+
+OpenNi2Device::~OpenNi2Device() = default;
+
+std::unique_ptr<CameraDevice> OpenNi2Device::open(const DeviceRequest& request) {
+  return std::unique_ptr<CameraDevice>(
+      new OpenNi2Device(std::make_unique<Implementation>(request)));
+}
+
+const DeviceDescription& OpenNi2Device::description() const {
+  return implementation_->description();
+}
+
+void OpenNi2Device::start(StreamKind kind) {
+  implementation_->start(kind);
+}
+void OpenNi2Device::stop(StreamKind kind) {
+  implementation_->stop(kind);
+}
+bool OpenNi2Device::isConnected() const {
+  return implementation_->isConnected();
+}
+
+bool OpenNi2Device::read(std::chrono::milliseconds timeout,
+                         const std::function<void(const ImageView&)>& callback) {
+  return implementation_->read(timeout, callback);
+}
+
+void OpenNi2Device::applySettings(const CameraSettings& settings) {
+  implementation_->applySettings(settings);
+}
+
+CameraSettings OpenNi2Device::settings() const {
+  return implementation_->settings();
+}
+
+}  // namespace mivo

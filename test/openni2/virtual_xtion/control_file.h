@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace virtual_xtion {
+
+/// What the virtual camera is told to do: lines "name value" of the file that the environment
+/// variable MIVO_VIRTUAL_XTION names. It may change at any time; write it elsewhere and rename it.
+struct Control {
+  std::string folder;          ///< sequence in TUM layout, 640x480
+  std::string truth;           ///< file that gets a line for each image taken: see Truth
+  int devices = 1;             ///< cameras to offer
+  bool present = true;         ///< plugged in
+  bool in_use = false;         ///< another process has it
+  bool no_permission = false;  ///< the USB node may not be opened
+  bool color = true;           ///< has a colour camera
+  bool registration = true;    ///< can register depth to colour
+  bool settings = true;        ///< has exposure, gain and white balance
+  bool deaf = false;           ///< ignores settings for good
+  std::int64_t start = 0;      ///< host time, ns, from which the sequence plays; 0: first image
+  int rate = 30;               ///< Hz that get through USB; images in between are lost
+  int drop_every = 0;          ///< every n-th image is lost; 0: none
+  bool color_stalls = false;   ///< no more colour images
+  bool depth_stalls = false;   ///< no more depth images
+  double depth_delay = 0.0;    ///< s that depth arrives later
+  double jitter = 0.0;         ///< s, mean of the random delay of arrivals
+  double clock_ppm = 0.0;      ///< the device's clock is faster by this
+};
+
+/// Reads the file; throws std::runtime_error for a line that it does not understand.
+Control readControl(const std::string& path);
+
+/// Path in the environment, or empty.
+std::string controlPath();
+
+}  // namespace virtual_xtion
