@@ -7,6 +7,7 @@
 #include <memory>
 #include <opencv2/core.hpp>
 #include <optional>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -28,7 +29,7 @@ struct Request {
   mivo::GeneratorOptions generator;
   int width = 640;
   int height = 480;
-  std::vector<double> distortion;
+  std::string distortion;
   std::vector<double> depth_offset;
   std::string transfer = "srgb";
   bool no_blur = false;
@@ -71,8 +72,8 @@ void addSequenceOptions(mivo::CommandLine& line, Request& request) {
       "seed", number(g.seed, "1"), "another seed: other textures, motion and noise")(
       "width", number(request.width, "640"), "pixels")("height", number(request.height, "480"),
                                                        "pixels")(
-      "distortion", po::value(&request.distortion)->multitoken()->value_name("K1 K2 P1 P2 K3"),
-      "lens distortion, as in camera.txt's order without names: k1 k2 p1 p2 k3; none by default")(
+      "distortion", po::value(&request.distortion)->value_name("K1,K2,P1,P2,K3"),
+      "lens distortion, five numbers with commas and no blanks; none by default")(
       "threads", number(request.threads, "all cores"), "threads; the images do not depend on it")(
       "force", po::bool_switch(&request.force), "replace an existing sequence");
 }
@@ -117,6 +118,29 @@ void addDepthOptions(mivo::CommandLine& line, Request& request) {
       "pixels by which depth is registered wrongly; none by default");
 }
 
+mivo::Distortion parseDistortion(const std::string& text) {
+  std::vector<double> numbers;
+  std::istringstream stream(text);
+  for (std::string field; std::getline(stream, field, ',');) {
+    std::istringstream number(field);
+    double value = 0.0;
+    if (!(number >> value) || !number.eof()) {
+      throw mivo::UsageError("--distortion: '" + field + "' is not a number");
+    }
+    numbers.push_back(value);
+  }
+  if (numbers.size() != 5) {
+    throw mivo::UsageError("--distortion needs five numbers: k1,k2,p1,p2,k3");
+  }
+  mivo::Distortion distortion;
+  distortion.k1 = numbers[0];
+  distortion.k2 = numbers[1];
+  distortion.p1 = numbers[2];
+  distortion.p2 = numbers[3];
+  distortion.k3 = numbers[4];
+  return distortion;
+}
+
 mivo::GeneratorOptions generatorOptions(Request& request, const mivo::CommandLine& line) {
   mivo::GeneratorOptions& g = request.generator;
   requireName("scene", g.scene, mivo::sceneNames());
@@ -127,12 +151,7 @@ mivo::GeneratorOptions generatorOptions(Request& request, const mivo::CommandLin
     throw mivo::UsageError("images must be at least 16 x 16");
   if (request.threads < 0) throw mivo::UsageError("--threads must not be negative");
   g.camera = mivo::xtionCamera(request.width, request.height);
-  if (!request.distortion.empty()) {
-    if (request.distortion.size() != 5)
-      throw mivo::UsageError("--distortion needs the five numbers k1 k2 p1 p2 k3");
-    const std::vector<double>& d = request.distortion;
-    g.camera.distortion = {d[0], d[1], d[2], d[3], d[4]};
-  }
+  if (!request.distortion.empty()) g.camera.distortion = parseDistortion(request.distortion);
   if (!request.depth_offset.empty())
     g.sensor.depth_offset = {request.depth_offset[0], request.depth_offset[1]};
   g.sensor.imager.transfer =

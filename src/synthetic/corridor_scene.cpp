@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <utility>
+
 #include "mivo/synthetic/texture_patterns.h"
 #include "scene_builder.h"
 #include "scenes.h"
@@ -74,7 +76,7 @@ Scene makeCorridor(std::uint64_t seed) {
   b.scene.viewpoint.pitch = -0.1;
   b.scene.moving_lamp_centre = {0.85F, 0.0F, 1.5F};
   b.scene.moving_lamp_reach = {0.2F, 1.1F, 0.4F};
-  return b.scene;
+  return std::move(b.scene);
 }
 
 Scene makeWall(std::uint64_t seed) {
@@ -108,7 +110,7 @@ Scene makeWall(std::uint64_t seed) {
   b.scene.viewpoint.pitch = -0.05;
   b.scene.moving_lamp_centre = {0.7F, 0.0F, 1.4F};
   b.scene.moving_lamp_reach = {0.2F, 1.0F, 0.35F};
-  return b.scene;
+  return std::move(b.scene);
 }
 
 }  // namespace mivo

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <cmath>
+#include <utility>
 
 #include "mivo/synthetic/texture_patterns.h"
 #include "scene_builder.h"
@@ -129,7 +130,7 @@ Scene makeOffice(std::uint64_t seed) {
   b.scene.viewpoint.pitch = -0.22;
   b.scene.moving_lamp_centre = {1.15F, 0.0F, 1.5F};
   b.scene.moving_lamp_reach = {0.3F, 1.1F, 0.35F};
-  return b.scene;
+  return std::move(b.scene);
 }
 
 }  // namespace mivo

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <utility>
+
 #include "mivo/synthetic/texture_patterns.h"
 #include "scene_builder.h"
 #include "scenes.h"
@@ -110,7 +112,7 @@ Scene makeRoom(std::uint64_t seed) {
   b.scene.viewpoint.pitch = -0.17;
   b.scene.moving_lamp_centre = {1.2F, 0.0F, 1.55F};
   b.scene.moving_lamp_reach = {0.35F, 1.35F, 0.4F};
-  return b.scene;
+  return std::move(b.scene);
 }
 
 }  // namespace mivo

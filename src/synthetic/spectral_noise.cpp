@@ -20,13 +20,16 @@ cv::Mat spectralNoise(int size, const Spectrum& spectrum, std::uint64_t seed) {
   }
   cv::Mat transformed;
   cv::dft(white, transformed, cv::DFT_COMPLEX_OUTPUT);
+  const auto lowest = static_cast<float>(spectrum.lowest_frequency);
+  const auto half_exponent = static_cast<float>(-0.5 * spectrum.exponent);
   for (int y = 0; y < size; ++y) {
     auto* row = transformed.ptr<cv::Vec2f>(y);
-    const double fy = (y < size / 2 ? y : y - size) / std::sqrt(spectrum.stretch);
+    const auto fy = static_cast<float>((y < size / 2 ? y : y - size) / std::sqrt(spectrum.stretch));
     for (int x = 0; x < size; ++x) {
-      const double fx = (x < size / 2 ? x : x - size) * std::sqrt(spectrum.stretch);
-      const double frequency = std::max(std::hypot(fx, fy), spectrum.lowest_frequency);
-      row[x] *= static_cast<float>(std::pow(frequency, -spectrum.exponent));
+      const auto fx =
+          static_cast<float>((x < size / 2 ? x : x - size) * std::sqrt(spectrum.stretch));
+      const float squared = std::max(fx * fx + fy * fy, lowest * lowest);
+      row[x] *= std::pow(squared, half_exponent);
     }
   }
   transformed.at<cv::Vec2f>(0, 0) = cv::Vec2f(0.0F, 0.0F);

@@ -9,6 +9,12 @@
 namespace mivo {
 namespace {
 
+// std::floor is a call into the library where the processor's baseline lacks the instruction.
+int floorToInt(float x) {
+  const int truncated = static_cast<int>(x);
+  return truncated - (x < static_cast<float>(truncated) ? 1 : 0);
+}
+
 bool isPowerOfTwo(int n) {
   return n > 0 && (n & (n - 1)) == 0;
 }
@@ -49,12 +55,12 @@ Texture::Texture(const cv::Mat& texels, double metres_per_texel)
 Eigen::Array4f Texture::bilinear(const Level& level, float x, float y) {
   const float level_x = (x + 0.5F) * level.scale - 0.5F;
   const float level_y = (y + 0.5F) * level.scale - 0.5F;
-  const float floor_x = std::floor(level_x);
-  const float floor_y = std::floor(level_y);
-  const float ax = level_x - floor_x;
-  const float ay = level_y - floor_y;
-  const int x0 = static_cast<int>(floor_x) & (level.width - 1);
-  const int y0 = static_cast<int>(floor_y) & (level.height - 1);
+  const int floor_x = floorToInt(level_x);
+  const int floor_y = floorToInt(level_y);
+  const float ax = level_x - static_cast<float>(floor_x);
+  const float ay = level_y - static_cast<float>(floor_y);
+  const int x0 = floor_x & (level.width - 1);
+  const int y0 = floor_y & (level.height - 1);
   const int x1 = (x0 + 1) & (level.width - 1);
   const int y1 = (y0 + 1) & (level.height - 1);
   const Eigen::Array4f* upper = level.texels.data() + static_cast<std::ptrdiff_t>(y0) * level.width;

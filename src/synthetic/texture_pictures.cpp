@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <string>
@@ -58,6 +59,10 @@ class Canvas {
   Texture finish(double roughness, float highlight) const {
     const int size = std::max(image.cols, image.rows);
     const cv::Mat noise = spectralNoise(size, {0.8, 1.0, 2.0}, seed_ + 5);
+    std::array<float, 256> linear{};
+    for (std::size_t k = 0; k < linear.size(); ++k) {
+      linear[k] = std::pow(static_cast<float>(k) / 255.0F, 2.2F);
+    }
     cv::Mat texels(image.rows, image.cols, CV_32FC4);
     for (int y = 0; y < image.rows; ++y) {
       for (int x = 0; x < image.cols; ++x) {
@@ -65,8 +70,7 @@ class Canvas {
         const auto brightness = static_cast<float>(1.0 + roughness * noise.at<float>(y, x));
         cv::Vec4f value(0.0F, 0.0F, 0.0F, highlight);
         for (int c = 0; c < 3; ++c) {
-          const float linear = std::pow(static_cast<float>(bgr[c]) / 255.0F, 2.2F);
-          value[c] = std::clamp(0.015F + 0.86F * linear * brightness, 0.01F, 0.92F);
+          value[c] = std::clamp(0.015F + 0.86F * linear[bgr[c]] * brightness, 0.01F, 0.92F);
         }
         texels.at<cv::Vec4f>(y, x) = value;
       }

@@ -17,7 +17,7 @@ class LightMap {
   struct Node {
     Eigen::Array4f visibility;  ///< of the four lamps, 0..1
     Eigen::Array4f openness;    ///< [0]: part of the hemisphere that is open, 0..1; [1]: stain,
-                              ///< factor on the reflectance; the rest is unused
+                                ///< factor on the reflectance; the rest is unused
   };
 
   /// Casts the shadow rays, on all threads of cv::parallel_for_.
