@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mivo/ros/bag_source.h"
 
+#include <nav_msgs/Path.h>
 #include <rosbag/view.h>
 #include <sensor_msgs/CameraInfo.h>
 
@@ -10,7 +11,9 @@
 #include "mivo/core/association.h"
 #include "mivo/core/error.h"
 #include "mivo/ros/camera_conversion.h"
+#include "mivo/ros/pose_conversion.h"
 #include "mivo/ros/stamp.h"
+#include "mivo/ros/topics.h"
 
 namespace mivo {
 namespace {
@@ -43,7 +46,7 @@ std::vector<double> stampsOf(const std::vector<BagSource::Message>& messages) {
 }
 
 template <typename Message>
-boost::shared_ptr<const Message> read(const rosbag::MessageInstance& instance) {
+boost::shared_ptr<const Message> instantiate(const rosbag::MessageInstance& instance) {
   boost::shared_ptr<const Message> message = instance.instantiate<Message>();
   if (!message) {
     throw Error("the message is a " + instance.getDataType() + ", not a " +
@@ -52,12 +55,14 @@ boost::shared_ptr<const Message> read(const rosbag::MessageInstance& instance) {
   return message;
 }
 
-}  // namespace
-
-bool isCompressed(const rosbag::MessageInstance& message) {
-  return message.getDataType() ==
-         ros::message_traits::DataType<sensor_msgs::CompressedImage>::value();
+ImageMessageConstPtr readImage(const rosbag::MessageInstance& instance) {
+  if (instance.isType<sensor_msgs::CompressedImage>()) {
+    return wrap(instantiate<sensor_msgs::CompressedImage>(instance));
+  }
+  return wrap(instantiate<sensor_msgs::Image>(instance));
 }
+
+}  // namespace
 
 BagSource::BagSource(const std::string& path, const RgbdTopics& wanted, const FrameRange& range)
     : path_(path) {
@@ -74,7 +79,8 @@ BagSource::BagSource(const std::string& path, const RgbdTopics& wanted, const Fr
 void BagSource::readCamera() {
   rosbag::View view(bag_, rosbag::TopicQuery(topics_.camera_info));
   for (const rosbag::MessageInstance& instance : view) {
-    camera_ = toCamera(*read<sensor_msgs::CameraInfo>(instance), isRectifiedTopic(topics_.colour));
+    camera_ =
+        toCamera(*instantiate<sensor_msgs::CameraInfo>(instance), isRectifiedTopic(topics_.colour));
     return;
   }
   throw Error("there is no message on the topic " + topics_.camera_info);
@@ -86,7 +92,7 @@ std::vector<BagSource::Message> BagSource::readIndex(const std::string& topic) c
   std::vector<std::pair<double, std::size_t>>
       order;  // instances cannot be assigned, thus not sorted
   for (std::size_t i = 0; i < instances.size(); ++i) {
-    order.emplace_back(toSeconds(read<HeaderOnly>(instances[i])->header.stamp), i);
+    order.emplace_back(toSeconds(instantiate<HeaderOnly>(instances[i])->header.stamp), i);
   }
   std::sort(order.begin(), order.end());
   std::vector<Message> messages;
@@ -117,36 +123,50 @@ void BagSource::findPairs(const FrameRange& range) {
                              pairs_.begin() + static_cast<std::ptrdiff_t>(end));
 }
 
+BagSource::Images BagSource::read(const Pair& pair) {
+  colour_ = readImage(pair.colour.instance);
+  depth_ = readImage(pair.depth.instance);
+  return {colour_->toColourImage(), depth_->toDepthImage()};
+}
+
 FrameSource::Status BagSource::next(Frame& frame, std::string& fault) {
   fault.clear();
   if (next_ >= pairs_.size()) return Status::kEnd;
   const Pair& pair = pairs_[next_++];
   try {
-    Frame read_frame;
-    read_frame.stamp = pair.colour.stamp;
-    if (isCompressed(pair.colour.instance)) {
-      read_frame.image = toGreyImage(*read<sensor_msgs::CompressedImage>(pair.colour.instance));
-    } else {
-      colour_ = read<sensor_msgs::Image>(pair.colour.instance);
-      read_frame.image = toGreyImage(*colour_);
-    }
-    DepthImage depth;
-    if (isCompressed(pair.depth.instance)) {
-      depth = toDepthImage(*read<sensor_msgs::CompressedImage>(pair.depth.instance));
-    } else {
-      depth_ = read<sensor_msgs::Image>(pair.depth.instance);
-      depth = toDepthImage(*depth_);
-    }
-    read_frame.depth = depth.image;
-    read_frame.depth_unit = depth.unit;
-    fault = findFault(read_frame, camera_);
-    frame = read_frame;
+    const Images images = read(pair);
+    frame.stamp = pair.colour.stamp;
+    frame.image = toGrey(images.colour.image, images.colour.order);
+    frame.depth = images.depth.image;
+    frame.depth_unit = images.depth.unit;
+    fault = findFault(frame, camera_);
   } catch (const std::exception& error) {
     fault = error.what();
   }
   if (fault.empty()) return Status::kFrame;
   fault = path_ + ", frame of stamp " + std::to_string(pair.colour.stamp) + ": " + fault;
   return Status::kSkipped;
+}
+
+double BagSource::depthUnitsPerMetre() const {
+  constexpr double kMillimetres = 1000.0;
+  constexpr double kOfMetres = 5000.0;
+  return readImage(pairs_.front().depth.instance)->toDepthImage().image.type() == CV_16UC1
+             ? kMillimetres
+             : kOfMetres;
+}
+
+Trajectory BagSource::groundTruth() const {
+  Trajectory truth;
+  rosbag::View view(bag_, rosbag::TopicQuery(topics::kGroundTruth));
+  for (const rosbag::MessageInstance& instance : view) {
+    if (!instance.isType<nav_msgs::Path>()) continue;
+    for (const geometry_msgs::PoseStamped& pose : instantiate<nav_msgs::Path>(instance)->poses) {
+      truth.push_back({toSeconds(pose.header.stamp), toIsometry(pose.pose)});
+    }
+    break;
+  }
+  return truth;
 }
 
 }  // namespace mivo

@@ -87,8 +87,8 @@ cv::Mat dequantise(const cv::Mat& quantised, float a, float b) {
 
 }  // namespace
 
-cv::Mat toGreyImage(const sensor_msgs::CompressedImage& message) {
-  return toGrey(decode(message, 0), channelOrder(message.format));
+ColourImage toColourImage(const sensor_msgs::CompressedImage& message) {
+  return {decode(message, 0), channelOrder(message.format)};
 }
 
 DepthImage toDepthImage(const sensor_msgs::CompressedImage& message) {

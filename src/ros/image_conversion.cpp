@@ -78,7 +78,7 @@ cv::Mat pixels(const sensor_msgs::Image& message, const std::string& target = {}
 
 }  // namespace
 
-cv::Mat toGreyImage(const sensor_msgs::Image& message) {
+ColourImage toColourImage(const sensor_msgs::Image& message) {
   const std::string& encoding = message.encoding;
   const bool grey = encoding == encodings::MONO8 || encoding == encodings::TYPE_8UC1 ||
                     encoding == encodings::MONO16;
@@ -93,9 +93,9 @@ cv::Mat toGreyImage(const sensor_msgs::Image& message) {
   }
   checkSizes(message);
   if (grey || rgb || bgr) {
-    return toGrey(pixels(message), rgb ? ChannelOrder::kRgb : ChannelOrder::kBgr);
+    return {pixels(message), rgb ? ChannelOrder::kRgb : ChannelOrder::kBgr};
   }
-  return toGrey(pixels(message, encodings::BGR8), ChannelOrder::kBgr);
+  return {pixels(message, encodings::BGR8), ChannelOrder::kBgr};
 }
 
 DepthImage toDepthImage(const sensor_msgs::Image& message) {

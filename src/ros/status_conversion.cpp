@@ -33,6 +33,8 @@ std::uint8_t code(TrackingReason reason) {
       return TrackingStatus::REASON_SINGULAR;
     case TrackingReason::kImplausibleMotion:
       return TrackingStatus::REASON_IMPLAUSIBLE_MOTION;
+    case TrackingReason::kNoInformation:
+      return TrackingStatus::REASON_NO_INFORMATION;
     case TrackingReason::kNotFinite:
       break;
   }

@@ -3,16 +3,15 @@
 
 #include <rosbag/bag.h>
 #include <rosbag/message_instance.h>
-#include <sensor_msgs/CompressedImage.h>
-#include <sensor_msgs/Image.h>
 
 #include <string>
 #include <vector>
 
+#include "mivo/core/stamped_pose.h"
 #include "mivo/io/frame_range.h"
 #include "mivo/io/frame_source.h"
 #include "mivo/ros/bag_topics.h"
-#include "mivo/ros/image_conversion.h"
+#include "mivo/ros/image_message.h"
 
 namespace mivo {
 
@@ -41,12 +40,26 @@ class BagSource : public FrameSource {
     rosbag::MessageInstance instance;
   };
 
-  /// A pair, for those who need the messages themselves.
   struct Pair {
     Message colour;
     Message depth;
   };
   const std::vector<Pair>& pairs() const { return pairs_; }
+
+  /// Images of one pair, for those who want more than a Frame. They refer to messages that live
+  /// until the next call.
+  struct Images {
+    ColourImage colour;
+    DepthImage depth;
+  };
+  /// Throws Error when a message is malformed.
+  Images read(const Pair& pair);
+
+  /// 1000 for depth in millimetres. Depth in metres has no unit of its own: 5000, as TUM stores it.
+  double depthUnitsPerMetre() const;
+
+  /// Path of the topic /ground_truth; empty when there is none.
+  Trajectory groundTruth() const;
 
  private:
   void findPairs(const FrameRange& range);
@@ -60,11 +73,8 @@ class BagSource : public FrameSource {
   std::vector<Pair> pairs_;
   std::size_t next_ = 0;
   // Keep the pixels of the last frame alive.
-  boost::shared_ptr<const sensor_msgs::Image> colour_;
-  boost::shared_ptr<const sensor_msgs::Image> depth_;
+  ImageMessageConstPtr colour_;
+  ImageMessageConstPtr depth_;
 };
-
-/// Whether a message is compressed.
-bool isCompressed(const rosbag::MessageInstance& message);
 
 }  // namespace mivo

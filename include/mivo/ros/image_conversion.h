@@ -6,6 +6,8 @@
 
 #include <opencv2/core/mat.hpp>
 
+#include "mivo/core/frame.h"
+
 namespace mivo {
 
 /// Depth as Frame takes it.
@@ -14,18 +16,31 @@ struct DepthImage {
   double unit = 0.001;  ///< metres per step of a CV_16UC1 image
 };
 
-/// Grey image of a colour message: mono8, 8UC1, mono16, rgb8, bgr8, rgba8, bgra8, bayer_*8, yuv422.
-/// A mono8 image is not copied: the result refers to the message's pixels and must not outlive
-/// them. Throws Error, with the remedy, for another encoding or a message whose sizes contradict
-/// each other.
-cv::Mat toGreyImage(const sensor_msgs::Image& message);
+/// An image of the colour camera.
+struct ColourImage {
+  cv::Mat image;  ///< CV_8U with 1, 3 or 4 channels, or CV_16UC1
+  ChannelOrder order = ChannelOrder::kBgr;
+};
+
+/// Image of a colour message: mono8, 8UC1, mono16, rgb8, bgr8, rgba8, bgra8, bayer_*8, yuv422.
+/// Nothing is copied where it can be avoided: the result refers to the message's pixels and must
+/// not outlive them. Throws Error, with the remedy, for another encoding or a message whose sizes
+/// contradict each other.
+ColourImage toColourImage(const sensor_msgs::Image& message);
+
+/// The same of a JPEG or PNG message of the transport "compressed". Throws Error.
+ColourImage toColourImage(const sensor_msgs::CompressedImage& message);
+
+/// Grey image of either message: toGrey(toColourImage(message)).
+template <typename Message>
+cv::Mat toGreyImage(const Message& message) {
+  const ColourImage colour = toColourImage(message);
+  return toGrey(colour.image, colour.order);
+}
 
 /// Depth of a message: 16UC1 or mono16 in millimetres, 32FC1 in metres, both byte orders. The
 /// result refers to the message's pixels when they are in this machine's byte order. Throws Error.
 DepthImage toDepthImage(const sensor_msgs::Image& message);
-
-/// Grey image of a JPEG or PNG message of the transport "compressed". Throws Error.
-cv::Mat toGreyImage(const sensor_msgs::CompressedImage& message);
 
 /// Depth of a message of the transport "compressedDepth" (PNG, 16UC1 or 32FC1), or of a 16-bit PNG
 /// of the transport "compressed". Throws Error.

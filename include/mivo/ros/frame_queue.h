@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <deque>
+#include <mutex>
+#include <optional>
+
+namespace mivo {
+
+/// Frames between the thread that receives them and the one that tracks them.
+template <typename Item>
+class FrameQueue {
+ public:
+  enum class Policy {
+    kNewest,  ///< a newer frame takes the place of one that still waits
+    kAll      ///< all frames wait
+  };
+
+  explicit FrameQueue(Policy policy) : policy_(policy) {}
+
+  /// Does nothing once the queue is closed.
+  void push(Item item) {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      if (closed_) return;
+      if (policy_ == Policy::kNewest) {
+        dropped_ += items_.size();
+        items_.clear();
+      }
+      items_.push_back(std::move(item));
+    }
+    changed_.notify_one();
+  }
+
+  /// The oldest frame, waited for; nothing once the queue is closed and, with kAll, empty.
+  std::optional<Item> pop() {
+    std::unique_lock<std::mutex> lock(mutex_);
+    changed_.wait(lock, [this] { return closed_ || !items_.empty(); });
+    if (items_.empty()) return std::nullopt;
+    Item item = std::move(items_.front());
+    items_.pop_front();
+    return item;
+  }
+
+  /// Wakes up the consumer. With kAll it still gets what waits, with kNewest nothing.
+  void close() {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      closed_ = true;
+      if (policy_ == Policy::kNewest) items_.clear();
+    }
+    changed_.notify_all();
+  }
+
+  /// Discards what waits and returns how many that were.
+  std::size_t clear() {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const std::size_t count = items_.size();
+    items_.clear();
+    return count;
+  }
+
+  std::size_t size() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return items_.size();
+  }
+
+  /// Frames that newer ones have replaced.
+  std::uint64_t dropped() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return dropped_;
+  }
+
+ private:
+  const Policy policy_;
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::deque<Item> items_;
+  std::uint64_t dropped_ = 0;
+  bool closed_ = false;
+};
+
+}  // namespace mivo

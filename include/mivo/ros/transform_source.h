@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ros/node_handle.h>
+#include <tf2_ros/buffer.h>
+#include <tf2_ros/transform_listener.h>
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <string>
+
+namespace mivo {
+
+/// What the odometry asks tf. Listens with a thread of its own.
+class TransformSource {
+ public:
+  TransformSource(const ros::NodeHandle& node, const std::string& base_frame,
+                  const std::string& guess_frame);
+
+  /// Camera on the base at a time: without waiting, the one of that time, the latest one, or the
+  /// last that was ever known; nothing before that. Says once why, and every ten seconds, what is
+  /// missing.
+  std::optional<Eigen::Isometry3d> baseCamera(const std::string& camera_frame,
+                                              const ros::Time& stamp);
+
+  /// Motion of the base between two times as the frame of another odometry saw it, T_before_now;
+  /// nothing when tf does not know it within `timeout`.
+  std::optional<Eigen::Isometry3d> baseMotion(const ros::Time& before, const ros::Time& now,
+                                              const ros::WallDuration& timeout);
+
+  /// Pose of the base in the guess frame, as baseMotion.
+  std::optional<Eigen::Isometry3d> guessBase(const ros::Time& stamp);
+
+  /// Parent of the base in tf; empty when it has none.
+  std::string parentOfBase();
+
+ private:
+  std::string base_frame_;
+  std::string guess_frame_;
+  tf2_ros::Buffer buffer_;
+  tf2_ros::TransformListener listener_;
+  std::optional<Eigen::Isometry3d> T_base_camera_;  // last good one
+  std::string camera_frame_;                        // of it
+};
+
+}  // namespace mivo

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <iostream>
+#include <opencv2/imgproc.hpp>
+#include <string>
+
+#include "mivo/core/error.h"
+#include "mivo/io/sequence_writer.h"
+#include "mivo/ros/bag_source.h"
+#include "programs/bag_options.h"
+#include "programs/command_line.h"
+#include "programs/progress_bar.h"
+
+namespace {
+
+/// Grey stays as it is; colour with blue first, as image files are written.
+cv::Mat toBgr(const mivo::ColourImage& colour) {
+  const bool rgb = colour.order == mivo::ChannelOrder::kRgb;
+  cv::Mat image = colour.image;
+  if (image.channels() == 3 && rgb) cv::cvtColor(colour.image, image, cv::COLOR_RGB2BGR);
+  if (image.channels() == 4) {
+    cv::cvtColor(colour.image, image, rgb ? cv::COLOR_RGBA2BGR : cv::COLOR_BGRA2BGR);
+  }
+  return image;
+}
+
+void writeFrames(mivo::BagSource& source, mivo::SequenceWriter& writer) {
+  mivo::ProgressBar progress(source.size());
+  std::size_t written = 0;
+  for (const mivo::BagSource::Pair& pair : source.pairs()) {
+    try {
+      const mivo::BagSource::Images images = source.read(pair);
+      writer.writeFrame(pair.colour.stamp, toBgr(images.colour), pair.depth.stamp,
+                        images.depth.image);
+      ++written;
+    } catch (const mivo::Error& error) {
+      progress.clear();
+      std::cerr << "skipped: frame of stamp " << std::to_string(pair.colour.stamp) << ": "
+                << error.what() << "\n";
+    }
+    progress.advance();
+  }
+  if (written == 0) throw mivo::Error("none of the frames could be written");
+}
+
+void run(int argc, char** argv) {
+  namespace po = boost::program_options;
+  std::string bag;
+  std::string folder;
+  mivo::RgbdTopics topics;
+  bool force = false;
+  mivo::CommandLine line(
+      "bag_to_sequence",
+      "Writes the frames of a bag as a sequence folder. Depth in millimetres stays "
+      "as it is, depth in metres gets 5000 units per metre.");
+  line.argument("BAG", &bag, "a bag with colour images, registered depth images and camera_info");
+  line.argument("FOLDER", &folder, "the sequence");
+  mivo::declareTopics(line, &topics);
+  line.options()("force", po::bool_switch(&force), "replace a sequence that is in the folder");
+  if (!line.parse(argc, argv)) return;
+
+  mivo::BagSource source(bag, topics);
+  mivo::SequenceWriter writer(folder, {source.camera(), source.depthUnitsPerMetre()},
+                              force ? mivo::Overwrite::kYes : mivo::Overwrite::kNo);
+  writeFrames(source, writer);
+  for (const mivo::StampedPose& pose : source.groundTruth()) writer.writePose(pose);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return mivo::runProgram("bag_to_sequence", [&] { run(argc, argv); });
+}

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mivo/ros/camera_publisher.h"
+
+#include <boost/predef/other/endian.h>
+#include <image_transport/image_transport.h>
+#include <sensor_msgs/image_encodings.h>
+
+#include <boost/make_shared.hpp>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <utility>
+
+namespace mivo {
+namespace {
+
+constexpr std::uint32_t kQueueSize =
+    5;                                  // images that wait for a slow subscriber of another process
+constexpr std::size_t kMaxWaiting = 4;  // images that wait for their partner
+// Stamps of a pair that differ by less are those of one exposure: both get the colour's, so that
+// exact synchronisers find them.
+constexpr std::uint64_t kSameExposure = 1000;  // microseconds
+constexpr double kMillimetre = 0.001;
+constexpr double kUnitPrecision = 1e-9;
+constexpr double kMicrosecondsPerSecond = 1e6;
+
+// Rows without the padding behind them.
+void copyRows(const ImageView& view, std::size_t row_bytes, std::vector<std::uint8_t>& data) {
+  if (view.stride == row_bytes) {
+    data.assign(view.data, view.data + row_bytes * static_cast<std::size_t>(view.height));
+    return;
+  }
+  data.reserve(row_bytes * static_cast<std::size_t>(view.height));
+  for (int y = 0; y < view.height; ++y) {
+    const std::uint8_t* row = view.data + static_cast<std::size_t>(y) * view.stride;
+    data.insert(data.end(), row, row + row_bytes);
+  }
+}
+
+void convertToMetres(const ImageView& view, std::vector<std::uint8_t>& data) {
+  const auto width = static_cast<std::size_t>(view.width);
+  data.resize(width * static_cast<std::size_t>(view.height) * sizeof(float));
+  auto* metres = reinterpret_cast<float*>(data.data());
+  const auto unit = static_cast<float>(view.depth_unit);
+  for (int y = 0; y < view.height; ++y) {
+    const auto* row = reinterpret_cast<const std::uint16_t*>(
+        view.data + static_cast<std::size_t>(y) * view.stride);
+    for (std::size_t x = 0; x < width; ++x) {
+      *metres++ =
+          row[x] == 0 ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(row[x]) * unit;
+    }
+  }
+}
+
+ros::Time toRosTime(std::int64_t nanoseconds) {
+  ros::Time time;
+  time.fromNSec(static_cast<std::uint64_t>(nanoseconds));
+  return time;
+}
+
+}  // namespace
+
+sensor_msgs::ImagePtr toMessage(const ImageView& view) {
+  auto message = boost::make_shared<sensor_msgs::Image>();
+  message->width = static_cast<std::uint32_t>(view.width);
+  message->height = static_cast<std::uint32_t>(view.height);
+  message->is_bigendian = BOOST_ENDIAN_BIG_BYTE ? 1 : 0;
+  const auto width = static_cast<std::size_t>(view.width);
+  std::size_t row_bytes = 0;
+  if (view.kind == StreamKind::kColor) {
+    message->encoding = sensor_msgs::image_encodings::RGB8;
+    row_bytes = 3 * width;
+    copyRows(view, row_bytes, message->data);
+  } else if (std::abs(view.depth_unit - kMillimetre) < kUnitPrecision) {
+    message->encoding = sensor_msgs::image_encodings::TYPE_16UC1;
+    row_bytes = sizeof(std::uint16_t) * width;
+    copyRows(view, row_bytes, message->data);
+  } else {
+    // 16UC1 means millimetres to everybody: other units go out in metres.
+    message->encoding = sensor_msgs::image_encodings::TYPE_32FC1;
+    row_bytes = sizeof(float) * width;
+    convertToMetres(view, message->data);
+  }
+  message->step = static_cast<std::uint32_t>(row_bytes);
+  return message;
+}
+
+CameraPublisher::CameraPublisher(ros::NodeHandle node, const CameraParameters& parameters,
+                                 std::function<void(const StreamDemand&)> on_demand)
+    : color_frame_(parameters.rgbOpticalFrame()),
+      depth_frame_(parameters.device.registration ? parameters.rgbOpticalFrame()
+                                                  : parameters.depthOpticalFrame()),
+      registered_(parameters.device.registration),
+      on_demand_(std::move(on_demand)),
+      color_calibration_(ros::NodeHandle(node, "rgb"), "rgb", parameters.rgb_camera_info_url),
+      pairer_(
+          static_cast<std::uint64_t>(parameters.pair_tolerance * kMicrosecondsPerSecond),
+          kMaxWaiting,
+          [this](Pairer::Entry& color, Pairer::Entry& depth) { publishPair(color, depth); },
+          [this](StreamKind kind, Pairer::Entry& entry) {
+            publish(kind, entry.image);
+            const std::lock_guard<std::mutex> lock(statistics_mutex_);
+            ++statistics_.singles;
+          }) {
+  if (!registered_) {
+    depth_calibration_ = std::make_unique<CameraCalibration>(
+        ros::NodeHandle(node, "depth"), "depth", parameters.depth_camera_info_url);
+  }
+  advertise(std::move(node), registered_);
+}
+
+void CameraPublisher::advertise(ros::NodeHandle node, bool registration) {
+  image_transport::ImageTransport transport(node);
+  const auto image_change = [this](const image_transport::SingleSubscriberPublisher&) {
+    updateDemand();
+  };
+  const auto info_change = [this](const ros::SingleSubscriberPublisher&) { updateDemand(); };
+  const auto open = [&](const std::string& topic) {
+    return transport.advertiseCamera(topic, kQueueSize, image_change, image_change, info_change,
+                                     info_change);
+  };
+  // Somebody may subscribe before both publishers exist: updateDemand waits for the mutex.
+  const std::lock_guard<std::mutex> lock(demand_mutex_);
+  color_publisher_ = open("rgb/image_raw");
+  depth_publisher_ = open(registration ? "depth_registered/image_raw" : "depth/image_raw");
+}
+
+void CameraPublisher::updateDemand() {
+  const std::lock_guard<std::mutex> lock(demand_mutex_);
+  StreamDemand demand;
+  demand.color = color_publisher_.getNumSubscribers() > 0;
+  demand.depth = depth_publisher_.getNumSubscribers() > 0;
+  color_wanted_ = demand.color;
+  depth_wanted_ = demand.depth;
+  on_demand_(demand);
+}
+
+void CameraPublisher::setDevice(const DeviceDescription& device) {
+  color_calibration_.setDevice(device.serial, device.color_field_of_view);
+  if (depth_calibration_) {
+    depth_calibration_->setDevice(device.serial, device.depth_field_of_view);
+  }
+}
+
+void CameraPublisher::setTimeOffsets(double color, double depth) {
+  color_time_offset_ = color;
+  depth_time_offset_ = depth;
+}
+
+void CameraPublisher::add(const ImageView& view, std::int64_t stamp) {
+  const bool is_color = view.kind == StreamKind::kColor;
+  sensor_msgs::ImagePtr message = toMessage(view);
+  message->header.frame_id = is_color ? color_frame_ : depth_frame_;
+  message->header.stamp = toRosTime(stamp);
+  if (color_wanted_ && depth_wanted_) {
+    pairer_.add(view.kind, view.device_stamp, std::move(message));
+  } else {
+    pairer_.flush();
+    publish(view.kind, message);
+  }
+}
+
+void CameraPublisher::publishPair(Pairer::Entry& color, Pairer::Entry& depth) {
+  const auto offset = static_cast<std::int64_t>(depth.stamp - color.stamp);
+  if (static_cast<std::uint64_t>(std::abs(offset)) <= kSameExposure) {
+    depth.image->header.stamp = color.image->header.stamp;
+  }
+  {
+    const std::lock_guard<std::mutex> lock(statistics_mutex_);
+    ++statistics_.pairs;
+    statistics_.offset = static_cast<double>(offset) / kMicrosecondsPerSecond;
+  }
+  publish(StreamKind::kColor, color.image);
+  publish(StreamKind::kDepth, depth.image);
+}
+
+void CameraPublisher::publish(StreamKind kind, const sensor_msgs::ImagePtr& image) {
+  const bool is_color = kind == StreamKind::kColor;
+  const double offset = is_color ? color_time_offset_ : depth_time_offset_;
+  if (offset != 0.0) {
+    image->header.stamp += ros::Duration(offset);
+  }
+  CameraCalibration& calibration =
+      is_color || !depth_calibration_ ? color_calibration_ : *depth_calibration_;
+  auto info = boost::make_shared<sensor_msgs::CameraInfo>(
+      calibration.info(static_cast<int>(image->width), static_cast<int>(image->height)));
+  info->header = image->header;
+  (is_color ? color_publisher_ : depth_publisher_).publish(image, info);
+}
+
+PairStatistics CameraPublisher::statistics() const {
+  const std::lock_guard<std::mutex> lock(statistics_mutex_);
+  return statistics_;
+}
+
+}  // namespace mivo

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mivo/ros/display_publisher.h"
+
+#include <cv_bridge/cv_bridge.h>
+#include <image_transport/image_transport.h>
+#include <sensor_msgs/PointCloud2.h>
+#include <sensor_msgs/image_encodings.h>
+#include <sensor_msgs/point_cloud2_iterator.h>
+#include <visualization_msgs/MarkerArray.h>
+
+#include <algorithm>
+#include <boost/make_shared.hpp>
+
+#include "mivo/ros/topics.h"
+
+namespace mivo {
+namespace {
+
+constexpr double kFrustumDepth = 0.1;  // m, of the pyramid that stands for a keyframe
+constexpr double kLineWidth = 0.004;   // m
+constexpr char kMarkerNamespace[] = "keyframes";
+
+geometry_msgs::Point toPoint(const Eigen::Vector3d& v) {
+  geometry_msgs::Point point;
+  point.x = v.x();
+  point.y = v.y();
+  point.z = v.z();
+  return point;
+}
+
+/// Edges of the pyramid that the camera sees, as pairs of points.
+void addFrustum(const Camera& camera, const Eigen::Isometry3d& T,
+                std::vector<geometry_msgs::Point>& points) {
+  const double right = camera.width - 0.5;
+  const double bottom = camera.height - 0.5;
+  const Eigen::Vector2d corners[] = {{-0.5, -0.5}, {right, -0.5}, {right, bottom}, {-0.5, bottom}};
+  const geometry_msgs::Point centre = toPoint(T.translation());
+  geometry_msgs::Point ends[4];
+  for (int i = 0; i < 4; ++i) ends[i] = toPoint(T * (kFrustumDepth * camera.ray(corners[i])));
+  for (int i = 0; i < 4; ++i) {
+    points.insert(points.end(), {centre, ends[i], ends[i], ends[(i + 1) % 4]});
+  }
+}
+
+}  // namespace
+
+DisplayPublisher::DisplayPublisher(const ros::NodeHandle& node, const NodeParameters& parameters)
+    : parameters_(parameters) {
+  ros::NodeHandle handle(node);
+  image_transport::ImageTransport transport(handle);
+  cloud_ = handle.advertise<sensor_msgs::PointCloud2>(topics::kKeyframeCloud, 1, true);
+  markers_ = handle.advertise<visualization_msgs::MarkerArray>(topics::kKeyframeMarkers, 1, true);
+  reference_ = transport.advertise(topics::kReferenceImage, 1, true);
+  residual_ = transport.advertise(topics::kResidualImage, 1);
+}
+
+void DisplayPublisher::publish(const Odometry& odometry, int keyframe,
+                               const Eigen::Isometry3d& T_odom_world,
+                               const std_msgs::Header& header) {
+  if (!odometry.hasKeyframe()) return;
+  const Eigen::Isometry3d T_odom_keyframe = T_odom_world * odometry.keyframePose();
+  camera_ = odometry.camera();
+  if (keyframe != last_keyframe_) {
+    last_keyframe_ = keyframe;
+    if (keyframes_.size() >= static_cast<std::size_t>(parameters_.path_length)) {
+      keyframes_.erase(keyframes_.begin());
+    }
+    keyframes_.push_back(T_odom_keyframe);
+  }
+  if (cloud_keyframe_ != keyframe && cloud_.getNumSubscribers() > 0) {
+    publishCloud(odometry, T_odom_keyframe, header.stamp);
+    cloud_keyframe_ = keyframe;
+  }
+  if (markers_keyframe_ != keyframe && markers_.getNumSubscribers() > 0) {
+    publishMarkers(header.stamp);
+    markers_keyframe_ = keyframe;
+  }
+  if (reference_keyframe_ != keyframe && reference_.getNumSubscribers() > 0) {
+    publishImage(reference_, odometry.keyframeImage(), header);
+    reference_keyframe_ = keyframe;
+  }
+  if (residual_.getNumSubscribers() > 0) publishImage(residual_, odometry.residualImage(), header);
+}
+
+void DisplayPublisher::publishCloud(const Odometry& odometry,
+                                    const Eigen::Isometry3d& T_odom_keyframe,
+                                    const ros::Time& stamp) {
+  const std::vector<CloudPoint> points = odometry.keyframeCloud();
+  const auto message = boost::make_shared<sensor_msgs::PointCloud2>();
+  message->header.stamp = stamp;
+  message->header.frame_id = parameters_.odom_frame;
+  message->height = 1;
+  message->is_dense = true;
+  sensor_msgs::PointCloud2Modifier modifier(*message);
+  modifier.setPointCloud2Fields(
+      5, "x", 1, sensor_msgs::PointField::FLOAT32, "y", 1, sensor_msgs::PointField::FLOAT32, "z", 1,
+      sensor_msgs::PointField::FLOAT32, "rgb", 1, sensor_msgs::PointField::FLOAT32, "intensity", 1,
+      sensor_msgs::PointField::FLOAT32);
+  modifier.resize(points.size());
+  sensor_msgs::PointCloud2Iterator<float> position(*message, "x");
+  sensor_msgs::PointCloud2Iterator<std::uint8_t> colour(*message, "rgb");
+  sensor_msgs::PointCloud2Iterator<float> intensity(*message, "intensity");
+  for (const CloudPoint& point : points) {
+    const Eigen::Vector3f p =
+        (T_odom_keyframe * Eigen::Vector3d(point.x, point.y, point.z)).cast<float>();
+    std::copy_n(p.data(), 3, &position[0]);
+    std::fill_n(&colour[0], 3, static_cast<std::uint8_t>(point.intensity));
+    *intensity = point.intensity;
+    ++position;
+    ++colour;
+    ++intensity;
+  }
+  cloud_.publish(message);
+}
+
+void DisplayPublisher::publishMarkers(const ros::Time& stamp) {
+  visualization_msgs::Marker marker;
+  marker.header.stamp = stamp;
+  marker.header.frame_id = parameters_.odom_frame;
+  marker.ns = kMarkerNamespace;
+  marker.type = visualization_msgs::Marker::LINE_LIST;
+  marker.action =
+      keyframes_.empty() ? visualization_msgs::Marker::DELETE : visualization_msgs::Marker::ADD;
+  marker.pose.orientation.w = 1.0;
+  marker.scale.x = kLineWidth;
+  marker.color.r = 0.95F;
+  marker.color.g = 0.6F;
+  marker.color.a = 1.0F;
+  for (const Eigen::Isometry3d& T : keyframes_) addFrustum(camera_, T, marker.points);
+  visualization_msgs::MarkerArray message;
+  message.markers.push_back(marker);
+  markers_.publish(message);
+}
+
+void DisplayPublisher::publishImage(image_transport::Publisher& publisher, const cv::Mat& image,
+                                    const std_msgs::Header& header) {
+  if (image.empty()) return;
+  publisher.publish(
+      cv_bridge::CvImage(header, sensor_msgs::image_encodings::MONO8, image).toImageMsg());
+}
+
+void DisplayPublisher::move(const Eigen::Isometry3d& T_new_old) {
+  for (Eigen::Isometry3d& T : keyframes_) T = T_new_old * T;
+  cloud_keyframe_ = markers_keyframe_ = 0;  // shown anew with the next frame
+}
+
+void DisplayPublisher::clear() {
+  keyframes_.clear();
+  last_keyframe_ = cloud_keyframe_ = markers_keyframe_ = 0;
+  publishMarkers(ros::Time::now());
+}
+
+}  // namespace mivo

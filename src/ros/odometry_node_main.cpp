@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// The odometry without a manager: loads the same nodelet into a process of its own.
+#include <nodelet/loader.h>
+#include <ros/init.h>
+#include <ros/names.h>
+#include <ros/this_node.h>
+
+#include <iostream>
+
+int main(int argc, char** argv) {
+  ros::init(argc, argv, "odometry");
+  nodelet::Loader loader;
+  const nodelet::M_string remappings(ros::names::getRemappings());
+  const nodelet::V_string arguments(argv + 1, argv + argc);
+  if (!loader.load(ros::this_node::getName(), "mivo/OdometryNodelet", remappings, arguments)) {
+    std::cerr << "odometry_node: the nodelet mivo/OdometryNodelet cannot be loaded; source the "
+                 "workspace's setup.bash, or set CMAKE_PREFIX_PATH and ROS_PACKAGE_PATH\n";
+    return 1;
+  }
+  ros::spin();
+  return 0;
+}

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <nodelet/nodelet.h>
+
+#include <memory>
+#include <pluginlib/class_list_macros.hpp>
+
+#include "mivo/core/error.h"
+#include "mivo/ros/odometry_node.h"
+
+namespace mivo {
+
+/// The odometry in a nodelet manager, or alone (odometry_node). With parameters that cannot be used
+/// it stays idle and says why, in the log and on /diagnostics; the manager and its others go on.
+class OdometryNodelet : public nodelet::Nodelet {
+ public:
+  ~OdometryNodelet() override {
+    fault_timer_.stop();
+    node_.reset();
+  }
+
+ private:
+  void onInit() override {
+    diagnostics_ =
+        std::make_unique<OdometryDiagnostics>(getNodeHandle(), getPrivateNodeHandle(), getName());
+    try {
+      node_ =
+          std::make_unique<OdometryNode>(getNodeHandle(), getPrivateNodeHandle(), *diagnostics_);
+    } catch (const Error& error) {
+      NODELET_ERROR_STREAM("idle: " << error.what());
+      diagnostics_->setFault(error.what());
+      fault_timer_ = getNodeHandle().createWallTimer(
+          ros::WallDuration(1.0),
+          [this](const ros::WallTimerEvent&) { diagnostics_->publish({}, 0, 0); });
+    }
+  }
+
+  std::unique_ptr<OdometryDiagnostics> diagnostics_;
+  std::unique_ptr<OdometryNode> node_;
+  ros::WallTimer fault_timer_;
+};
+
+}  // namespace mivo
+
+PLUGINLIB_EXPORT_CLASS(mivo::OdometryNodelet, nodelet::Nodelet)
