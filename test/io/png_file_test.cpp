@@ -43,7 +43,7 @@ TEST(PngFileTest, EveryTruncationIsNoticed) {
   const std::string bytes = contentOf(folder / "image.png");
   ASSERT_GT(bytes.size(), 1000U);
   for (std::size_t size = 0; size < bytes.size(); size += 1 + size / 50) {
-    const std::string path = folder.write("cut.png", bytes.substr(0, size));
+    const std::string path = folder.write("cut" + std::to_string(size), bytes.substr(0, size));
     EXPECT_EQ(errorText([&] { readPng(path); }).find(path), 0U) << size;
   }
   const std::string path = folder.write("cut.png", bytes.substr(0, bytes.size() - 1));
@@ -57,7 +57,7 @@ TEST(PngFileTest, EveryDamagedByteIsNoticed) {
   for (std::size_t position = 0; position < bytes.size(); ++position) {
     std::string damaged = bytes;
     damaged[position] = static_cast<char>(damaged[position] ^ 0x10);
-    const std::string path = folder.write("damaged.png", damaged);
+    const std::string path = folder.write("damaged" + std::to_string(position), damaged);
     EXPECT_EQ(errorText([&] { readPng(path); }).find(path), 0U) << position;
   }
 }

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "programs/plane_sequence.h"
+
+#include <cmath>
+
+#include "mivo/core/se3.h"
+
+namespace mivo {
+namespace {
+
+// The plane n . X = d of the world, metres: slanted, so that depth tells the six motions apart.
+const Eigen::Vector3d kNormal = Eigen::Vector3d(0.2, -0.1, 1.0).normalized();
+constexpr double kDistance = 1.5;
+
+/// Grey value at a point of the plane: waves of several lengths and directions, 40..210.
+double texture(double x, double y) {
+  double sum = 0.0;
+  for (int i = 1; i <= 6; ++i) {
+    const double direction = 2.4 * i;
+    const double frequency = 4.0 + 7.0 * i;  // rad/m
+    sum += std::sin(frequency * (x * std::cos(direction) + y * std::sin(direction)) + i) / 6.0;
+  }
+  return 125.0 + 85.0 * sum;
+}
+
+}  // namespace
+
+SequenceCamera planeCamera() {
+  return {{160, 120, 140.0, 140.0, 79.5, 59.5, {}}, 1000.0};
+}
+
+Eigen::Isometry3d planePose(int i) {
+  Vector6 twist;
+  twist << 0.006, -0.003, 0.004, 0.002, 0.004, -0.003;
+  return expSe3(i * twist);
+}
+
+double planeStamp(int i) {
+  return 100.0 + i / 30.0;
+}
+
+void renderPlane(const Eigen::Isometry3d& T_world_camera, cv::Mat& image, cv::Mat& depth) {
+  const Camera camera = planeCamera().camera;
+  image.create(camera.height, camera.width, CV_8UC1);
+  depth.create(camera.height, camera.width, CV_32FC1);
+  for (int y = 0; y < camera.height; ++y) {
+    for (int x = 0; x < camera.width; ++x) {
+      const Eigen::Vector3d ray((x - camera.cx) / camera.fx, (y - camera.cy) / camera.fy, 1.0);
+      const double z = (kDistance - kNormal.dot(T_world_camera.translation())) /
+                       kNormal.dot(T_world_camera.linear() * ray);
+      const Eigen::Vector3d point = T_world_camera * (z * ray);
+      image.at<unsigned char>(y, x) =
+          static_cast<unsigned char>(std::lround(texture(point.x(), point.y())));
+      depth.at<float>(y, x) = static_cast<float>(z);
+    }
+  }
+}
+
+void writePlaneSequence(const std::string& folder, int frames) {
+  SequenceWriter writer(folder, planeCamera(), Overwrite::kNo);
+  cv::Mat image;
+  cv::Mat depth;
+  for (int i = 0; i < frames; ++i) {
+    renderPlane(planePose(i), image, depth);
+    writer.writeFrame(planeStamp(i), image, planeStamp(i), depth);
+    writer.writePose({planeStamp(i), planePose(i)});
+  }
+}
+
+}  // namespace mivo

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+#include <string>
+
+#include "mivo/io/camera_file.h"
+#include "mivo/io/sequence_writer.h"
+
+namespace mivo {
+
+/// The camera of the sequences below: 160 x 120 pixels, depth in millimetres.
+SequenceCamera planeCamera();
+
+/// Pose of frame `i`: a slow arc in front of the plane, starting at the identity.
+Eigen::Isometry3d planePose(int i);
+
+/// Stamp of frame `i`, at 30 Hz.
+double planeStamp(int i);
+
+/// Image and depth (metres) of a textured, slanted plane, in closed form.
+void renderPlane(const Eigen::Isometry3d& T_world_camera, cv::Mat& image, cv::Mat& depth);
+
+/// Writes a sequence folder of `frames` frames with its ground truth.
+void writePlaneSequence(const std::string& folder, int frames);
+
+}  // namespace mivo
