@@ -161,7 +161,8 @@ Trajectory BagSource::groundTruth() const {
   rosbag::View view(bag_, rosbag::TopicQuery(topics::kGroundTruth));
   for (const rosbag::MessageInstance& instance : view) {
     if (!instance.isType<nav_msgs::Path>()) continue;
-    for (const geometry_msgs::PoseStamped& pose : instantiate<nav_msgs::Path>(instance)->poses) {
+    const auto path = instantiate<nav_msgs::Path>(instance);
+    for (const geometry_msgs::PoseStamped& pose : path->poses) {
       truth.push_back({toSeconds(pose.header.stamp), toIsometry(pose.pose)});
     }
     break;
