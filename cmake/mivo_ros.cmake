@@ -38,10 +38,11 @@ add_service_files(FILES
   SetPose.srv)
 generate_messages(DEPENDENCIES geometry_msgs std_msgs)
 
-generate_dynamic_reconfigure_options(config/Odometry.cfg)
+generate_dynamic_reconfigure_options(config/Odometry.cfg config/OpenNI2.cfg)
 # The .cfg is made from the table of parameters.
 add_custom_command(OUTPUT ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_INCLUDE_DESTINATION}/OdometryConfig.h
-  DEPENDS ${PROJECT_SOURCE_DIR}/include/mivo/core/parameters.def APPEND)
+  DEPENDS ${PROJECT_SOURCE_DIR}/include/mivo/core/parameters.def
+    ${PROJECT_SOURCE_DIR}/config/parameter_table.py APPEND)
 
 catkin_package(
   INCLUDE_DIRS include

@@ -2,6 +2,7 @@
 // The camera without a manager: loads the same nodelet into a process of its own.
 #include <nodelet/loader.h>
 #include <ros/init.h>
+#include <ros/names.h>
 #include <ros/this_node.h>
 
 #include <iostream>
