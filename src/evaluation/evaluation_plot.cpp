@@ -85,6 +85,7 @@ cv::Mat drawEvaluation(const Trajectory& truth, const Trajectory& estimate,
               sorted_estimate, evaluation.absolute.T_truth_estimate, axis);
   }
 
+  const std::vector<double> times = {0.0, sorted_estimate.back().stamp - start};
   Curve absolute;
   absolute.colour = kEstimateColour;
   for (const double stamp : evaluation.absolute.stamps) absolute.x.push_back(stamp - start);
@@ -94,15 +95,15 @@ cv::Mat drawEvaluation(const Trajectory& truth, const Trajectory& estimate,
             {fmt::format("Absolute trajectory error, rmse {:.4g} m",
                          statisticsOf(evaluation.absolute.errors).rmse),
              "time (s)", "position (m)"},
-            PanelScale::kFree, {absolute});
+            PanelScale::kFree, {absolute}, times);
   drawPanel(canvas, {half, third, half, third},
             {fmt::format("Relative pose error over {:g} s, translation", options.delta), "time (s)",
              "drift (m)"},
-            PanelScale::kFree, {errorCurve(evaluation.drift, start, false)});
+            PanelScale::kFree, {errorCurve(evaluation.drift, start, false)}, times);
   drawPanel(canvas, {half, 2 * third, half, third},
             {fmt::format("Relative pose error over {:g} s, rotation", options.delta), "time (s)",
              "drift (deg)"},
-            PanelScale::kFree, {errorCurve(evaluation.drift, start, true)});
+            PanelScale::kFree, {errorCurve(evaluation.drift, start, true)}, times);
   return canvas;
 }
 

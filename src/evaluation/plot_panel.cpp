@@ -74,7 +74,8 @@ void writeVertically(cv::Mat& canvas, const std::string& text, int x, int centre
   strip(cv::Rect({0, 0}, place.size())).copyTo(canvas(place));
 }
 
-Axes makeAxes(const cv::Rect& area, PanelScale scale, const std::vector<Curve>& curves) {
+Axes makeAxes(const cv::Rect& area, PanelScale scale, const std::vector<Curve>& curves,
+              const std::vector<double>& x_included) {
   Axes axes;
   axes.box = cv::Rect(area.x + kLeft, area.y + kTop, area.width - kLeft - kRight,
                       area.height - kTop - kBottom);
@@ -82,6 +83,7 @@ Axes makeAxes(const cv::Rect& area, PanelScale scale, const std::vector<Curve>& 
     for (const double x : curve.x) axes.x.include(x);
     for (const double y : curve.y) axes.y.include(y);
   }
+  for (const double x : x_included) axes.x.include(x);
   if (scale == PanelScale::kFree) axes.y.include(0.0);
   constexpr double kMargin = 1.08;    // so that no curve runs along the border
   constexpr double kSmallest = 1e-9;  // a path that does not move still gets axes
@@ -172,8 +174,8 @@ std::vector<double> niceTicks(double minimum, double maximum, int count) {
 }
 
 void drawPanel(cv::Mat& canvas, const cv::Rect& area, const PanelText& text, PanelScale scale,
-               const std::vector<Curve>& curves) {
-  const Axes axes = makeAxes(area, scale, curves);
+               const std::vector<Curve>& curves, const std::vector<double>& x_included) {
+  const Axes axes = makeAxes(area, scale, curves, x_included);
   drawGrid(canvas, axes);
   for (const Curve& curve : curves) drawCurve(canvas, axes, curve);
   drawLegend(canvas, axes, curves);

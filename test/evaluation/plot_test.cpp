@@ -63,6 +63,14 @@ TEST(PlotTest, LargerValueIsHigherAndLaterOnTheRight) {
   }
 }
 
+TEST(PlotTest, AxisCoversWhatItHasToInclude) {
+  cv::Mat canvas(400, 800, CV_8UC3, cv::Scalar::all(255));
+  drawPanel(canvas, {0, 0, 800, 400}, {"t", "x", "y"}, PanelScale::kFree, {curveOf({0, 1}, {1, 1})},
+            {0.0, 4.0});
+  // A quarter of an axis that is a little shorter than the panel.
+  EXPECT_NEAR(boxOf(canvas, kRed).width, (800 - 90) / 4, 6);
+}
+
 TEST(PlotTest, NothingToDrawIsNoTrouble) {
   cv::Mat canvas(300, 300, CV_8UC3, cv::Scalar::all(255));
   for (const PanelScale scale : {PanelScale::kFree, PanelScale::kEqualAxes}) {

@@ -28,9 +28,10 @@ enum class PanelScale {
   kEqualAxes  ///< a metre is as long on both axes: for paths
 };
 
-/// Draws axes, grid, curves and legend into a rectangle of a CV_8UC3 image.
+/// Draws axes, grid, curves and legend into a rectangle of a CV_8UC3 image. The x axis covers the
+/// values of `x_included`, too, so that panels below each other can share one.
 void drawPanel(cv::Mat& canvas, const cv::Rect& area, const PanelText& text, PanelScale scale,
-               const std::vector<Curve>& curves);
+               const std::vector<Curve>& curves, const std::vector<double>& x_included = {});
 
 /// Round numbers (1, 2 or 5 times a power of ten apart) within [minimum, maximum], about `count`.
 std::vector<double> niceTicks(double minimum, double maximum, int count);
