@@ -54,12 +54,15 @@ TEST(PngFileTest, EveryDamagedByteIsNoticed) {
   const TemporaryFolder folder;
   writePng(folder / "image.png", noise(CV_8UC3, 9, 7), Overwrite::kNo);
   const std::string bytes = contentOf(folder / "image.png");
+  testing::internal::CaptureStderr();
   for (std::size_t position = 0; position < bytes.size(); ++position) {
     std::string damaged = bytes;
     damaged[position] = static_cast<char>(damaged[position] ^ 0x10);
     const std::string path = folder.write("damaged" + std::to_string(position), damaged);
     EXPECT_EQ(errorText([&] { readPng(path); }).find(path), 0U) << position;
   }
+  // Noticed here, not by the decoder, which would print a line of its own.
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
 TEST(PngFileTest, BytesAfterTheImageDoNotMatter) {
