@@ -65,6 +65,11 @@ Minimum minimise(const std::vector<CostTerm*>& terms, const Eigen::Isometry3d& T
         break;
       }
       length_factor *= 0.5;
+      // What is left of the step could not gain enough to go on, nor move a point visibly.
+      if (length_factor * newton.promised_gain <= enough ||
+          length_factor * pixels < parameters.min_step_pixels) {
+        break;
+      }
     }
     minimum.line_search_milliseconds += threadMilliseconds() - start;
     if (!is_accepted) break;

@@ -40,6 +40,10 @@ Matrix6 poseCovariance(const Alignment& alignment) {
          diagonalCovariance(kFloorTranslation, kFloorRotation);
 }
 
+void requireFinite(const Eigen::Isometry3d& T_odom_camera) {
+  if (!T_odom_camera.matrix().allFinite()) throw Error("pose: a number of it is not finite");
+}
+
 }  // namespace
 
 class Odometry::Implementation {
@@ -72,11 +76,13 @@ class Odometry::Implementation {
   void track(const Frame& frame, const Eigen::Isometry3d& T_odom_camera_start);
   void accept(const Frame& frame, const Alignment& alignment);
   void lose(const Frame& frame, const Eigen::Isometry3d& guess, TrackingReason reason);
+  void setQuality(const Alignment& alignment);
   bool makeKeyframe(const Eigen::Isometry3d& T_odom_camera, const Vector6& twist_per_period);
   double readout() const;
   TrackingReason judge(const Frame& frame, const Alignment& alignment) const;
 
   MotionModel motion_;
+  ReadoutEstimator readout_;
   KeyframeQuality first_quality_;  // of the first frame tracked against the keyframe
   Eigen::Isometry3d T_odom_camera_ = Eigen::Isometry3d::Identity();  // last pose to be trusted
   double pose_stamp_ = 0.0;
@@ -121,13 +127,16 @@ void Odometry::Implementation::process(const Frame& frame, const Eigen::Isometry
   if (has_keyframe_ && keyframe_is_outdated_) {
     // Made with other parameters: the frame takes its place before it can be compared.
     has_keyframe_ = false;
+    lost_in_a_row_ = 0;
   }
   if (has_keyframe_) {
     track(frame, T_odom_camera_start);
   } else if (makeKeyframe(T_odom_camera_start, Vector6::Zero())) {
     result_.state = TrackingState::kTracking;
     result_.T_odom_camera = T_odom_camera_ = T_odom_camera_start;
-    result_.covariance = diagonalCovariance(kFloorTranslation, kFloorRotation);
+    // The first pose is true by definition; later ones without a keyframe are predicted.
+    result_.covariance = keyframes_ == 1 ? diagonalCovariance(kFloorTranslation, kFloorRotation)
+                                         : diagonalCovariance(kGuessTranslation, kGuessRotation);
     result_.overlap = 1.0;
     motion_.add(frame.stamp, T_odom_camera_);
     pose_stamp_ = frame.stamp;
@@ -139,6 +148,7 @@ void Odometry::Implementation::process(const Frame& frame, const Eigen::Isometry
   }
   result_.keyframes = keyframes_;
   result_.segment = segment_;
+  result_.rolling_shutter_readout = readout() * motion_.period(parameters_);
   result_.milliseconds.total = threadMilliseconds() - begin;
 }
 
@@ -157,6 +167,7 @@ void Odometry::Implementation::track(const Frame& frame,
   result_.overlap = alignment.overlap;
   result_.mutual_information = alignment.mutual_information;
   result_.residual_scale = alignment.residual_scale;
+  result_.correlation = alignment.correlation;
 
   const TrackingReason reason = judge(frame, alignment);
   if (reason == TrackingReason::kNone) {
@@ -195,8 +206,9 @@ void Odometry::Implementation::accept(const Frame& frame, const Alignment& align
   pose_stamp_ = frame.stamp;
   lost_in_a_row_ = 0;
   motion_.add(frame.stamp, T_odom_camera_);
-  result_.state = alignment.sees_image ? TrackingState::kTracking : TrackingState::kDegraded;
-  if (!alignment.sees_image) result_.reason = TrackingReason::kNoInformation;
+  setQuality(alignment);
+  // Held against a keyframe whose own velocity is not known, a frame says nothing about the rows.
+  if (!keyframe_.twistPerPeriod().isZero(0.0)) readout_.add(alignment.readout);
   result_.T_odom_camera = T_odom_camera_;
   result_.covariance = poseCovariance(alignment);
   result_.velocity = motion_.velocity(parameters_);
@@ -205,6 +217,17 @@ void Odometry::Implementation::accept(const Frame& frame, const Alignment& align
   }
   if (needsNewKeyframe(alignment, keyframe_, first_quality_, parameters_)) {
     makeKeyframe(T_odom_camera_, twist_per_period);
+  }
+}
+
+void Odometry::Implementation::setQuality(const Alignment& alignment) {
+  result_.state = TrackingState::kDegraded;
+  if (!alignment.sees_image) {
+    result_.reason = TrackingReason::kNoInformation;
+  } else if (alignment.condition < parameters_.degraded_curvature) {
+    result_.reason = TrackingReason::kSingular;
+  } else {
+    result_.state = TrackingState::kTracking;
   }
 }
 
@@ -231,6 +254,9 @@ void Odometry::Implementation::lose(const Frame& frame, const Eigen::Isometry3d&
 
 /// Time to read the rows of an image as a share of the frame period.
 double Odometry::Implementation::readout() const {
+  if (parameters_.rolling_shutter_readout == 0.0) {
+    return parameters_.rolling_shutter_estimation ? readout_.readout() : 0.0;
+  }
   const double period = motion_.period(parameters_);
   return period > 0.0 ? std::min(1.0, parameters_.rolling_shutter_readout / period) : 0.0;
 }
@@ -238,6 +264,7 @@ double Odometry::Implementation::readout() const {
 bool Odometry::Implementation::makeKeyframe(const Eigen::Isometry3d& T_odom_camera,
                                             const Vector6& twist_per_period) {
   const double begin = threadMilliseconds();
+  readout_.endKeyframe();
   Keyframe candidate;
   candidate.build(live_, camera_, twist_per_period, readout(), parameters_);
   result_.milliseconds.keyframe = threadMilliseconds() - begin;
@@ -295,10 +322,12 @@ Eigen::Isometry3d Odometry::predictedPose(double stamp) const {
 }
 
 void Odometry::reset(const Eigen::Isometry3d& T_odom_camera) {
+  requireFinite(T_odom_camera);
   implementation_->reset(T_odom_camera);
 }
 
 void Odometry::setPose(const Eigen::Isometry3d& T_odom_camera) {
+  requireFinite(T_odom_camera);
   implementation_->setPose(T_odom_camera);
 }
 

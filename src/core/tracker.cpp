@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mivo/core/tracker.h"
 
+#include <algorithm>
 #include <memory>
 
 #include "mivo/core/cpu_clock.h"
@@ -14,6 +15,8 @@ namespace {
 
 // Read-out times are measured where noise is already averaged, but rows still differ.
 constexpr int kReadoutLevel = 1;
+// Neighbouring points say much the same: more of them do not make chance less likely.
+constexpr int kIndependentPoints = 1500;
 
 /// Motion of the scene per frame period in the axes of the live camera at a pose.
 Vector6 twistPerPeriod(const AlignmentTask& task, const Eigen::Isometry3d& T_live_ref) {
@@ -83,6 +86,11 @@ class LevelAligner {
     record_.line_search_milliseconds += minimum.line_search_milliseconds;
   }
 
+  void judgeDepth(const GeometricTerm& geometry) {
+    alignment_.depth_scale = geometry.scale();
+    alignment_.sees_depth = geometry.scale() <= parameters_.lost_depth_scale;
+  }
+
   void alignInformation() {
     MiTerm term(points_, task_.keyframe.level(level_).mi, task_.live.informationImage(level_),
                 task_.live.informationRange(level_), warp_, parameters_);
@@ -94,14 +102,15 @@ class LevelAligner {
       record_.visible = static_cast<int>(term.numVisible());
       alignment_.mutual_information = term.mutualInformation();
       alignment_.sees_image =
-          2.0 * record_.visible * term.mutualInformation() >= parameters_.mi_significance;
+          2.0 * std::min(record_.visible, kIndependentPoints) * term.mutualInformation() >=
+          parameters_.mi_significance;
     }
     if (alignment_.sees_image) return;
     // Chance, not structure: its maximum means nothing. Depth may still know the way.
     alignment_.T_live_ref = start;
     if (const auto geometry = geometricTerm(parameters_.geometric_points_dark)) {
       minimiseTerms({geometry.get()});
-      alignment_.sees_depth = true;
+      judgeDepth(*geometry);
     }
   }
 
@@ -117,12 +126,14 @@ class LevelAligner {
       terms.push_back(&term);
     }
     if (geometry != nullptr) terms.push_back(geometry.get());
-    alignment_.sees_depth = geometry != nullptr;
+    alignment_.sees_depth = false;
     if (!terms.empty()) minimiseTerms(terms);
-    alignment_.sees_image = alignment_.sees_image && term.isInformative();
+    if (geometry != nullptr) judgeDepth(*geometry);
     record_.visible = static_cast<int>(term.numVisible());
     alignment_.residual_scale = term.scale();
     alignment_.correlation = term.correlation();
+    alignment_.sees_image = alignment_.sees_image && term.isInformative() &&
+                            alignment_.correlation >= parameters_.lost_correlation;
     if (level_ == kReadoutLevel && alignment_.sees_image) measureReadoutHere(term);
   }
 

@@ -42,7 +42,8 @@ class Odometry {
   /// Where the motion model expects the camera at a time.
   Eigen::Isometry3d predictedPose(double stamp) const;
 
-  /// Forgets keyframe, motion and stamps; the next frame starts at the given pose.
+  /// Forgets keyframe, motion and stamps; the next frame starts at the given pose. Throws Error
+  /// when the pose is not finite, as setPose does.
   void reset(const Eigen::Isometry3d& T_odom_camera = Eigen::Isometry3d::Identity());
 
   /// Moves the world: the last pose becomes the given one, tracking goes on undisturbed.

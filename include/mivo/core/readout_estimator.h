@@ -32,4 +32,30 @@ ReadoutMeasurement measureReadout(const ReferencePoints& points, const Residuals
                                   const std::vector<float>& live_rows, double height, double scale,
                                   const RowVelocities& velocities);
 
+/// Estimates the read-out time while tracking. It stays zero until two keyframes in a row ask for a
+/// rolling shutter by more than chance does on a global one, and then follows what they say.
+class ReadoutEstimator {
+ public:
+  /// Adds what a frame says, held against a keyframe whose velocity was known.
+  void add(const ReadoutMeasurement& measurement);
+
+  /// Ends the interval of a keyframe: the only time at which the estimate changes, for the points
+  /// of a keyframe are corrected for it when it is made.
+  void endKeyframe();
+
+  /// Read-out time as a share of the frame period, 0..1; 0: a global shutter.
+  double readout() const { return readout_; }
+
+ private:
+  void decide(double correction);
+
+  double weighted_sum_ = 0.0;
+  double information_ = 0.0;
+  double last_correction_ = 0.0;
+  bool is_on_ = false;
+  int updates_ = 0;
+  double estimate_ = 0.0;
+  double readout_ = 0.0;
+};
+
 }  // namespace mivo

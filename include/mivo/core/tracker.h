@@ -38,6 +38,7 @@ struct Alignment {
   bool sees_depth = false;          ///< the geometric term took part there
   double mutual_information = 0.0;  ///< nats, on the finest level that uses it
   double residual_scale = 0.0;      ///< grey levels, on the finest SSD level
+  double depth_scale = 0.0;         ///< residuals of the geometric term in deviations (or 0)
   double correlation = 0.0;         ///< of the images, on the finest SSD level
   ReadoutMeasurement readout;       ///< what the frame says about it
   int num_levels = 0;

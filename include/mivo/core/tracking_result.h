@@ -82,6 +82,9 @@ struct TrackingResult {
       0.0;                      ///< nats, with the keyframe, on the finest MI level (or 0: none)
   double residual_scale = 0.0;  ///< grey levels, robust, on the finest SSD level (or 0: none)
 
+  double correlation = 0.0;  ///< of frame and keyframe, -1..1, on the finest SSD level (or 0)
+  double rolling_shutter_readout = 0.0;  ///< s, given or estimated; 0: global shutter
+
   int num_levels = 0;  ///< entries of `levels`, coarsest first
   std::array<LevelRecord, kMaxLevels> levels{};
   StageTimes milliseconds;
