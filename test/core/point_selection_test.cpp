@@ -167,14 +167,13 @@ TEST(SelectSalientTest, TheSameImageGivesTheSamePoints) {
   EXPECT_FALSE(isSame(first, selectSalient(noiseImage(7), flatDepth(), limits(300))));
 }
 
-TEST(SelectAllTest, EveryPixelOfASmoothSurfaceButTheBorder) {
-  EXPECT_EQ(selectAll(flatDepth(), 0.06F).size(),
-            static_cast<std::size_t>((kWidth - 2) * (kHeight - 2)));
+TEST(SelectAllTest, EveryPixelWithDepthButTheBorder) {
+  EXPECT_EQ(selectAll(flatDepth()).size(), static_cast<std::size_t>((kWidth - 2) * (kHeight - 2)));
   cv::Mat depth = flatDepth();
   depth.at<float>(20, 30) = 0.0F;
-  EXPECT_EQ(selectAll(depth, 0.06F).size(),
-            static_cast<std::size_t>((kWidth - 2) * (kHeight - 2) - 9));
-  EXPECT_TRUE(selectAll(cv::Mat(2, 2, CV_32FC1, cv::Scalar(1.0F)), 0.06F).empty());
+  EXPECT_EQ(selectAll(depth).size(), static_cast<std::size_t>((kWidth - 2) * (kHeight - 2) - 1));
+  for (const Pixel& pixel : selectAll(depth)) EXPECT_FALSE(pixel.x == 30 && pixel.y == 20);
+  EXPECT_TRUE(selectAll(cv::Mat(2, 2, CV_32FC1, cv::Scalar(1.0F))).empty());
 }
 
 }  // namespace

@@ -109,6 +109,31 @@ inline AnalyticImage negativeOfWaves() {
   };
 }
 
+/// The waves seen by a sensor of another response, rising and curved, with spots of light on them.
+inline AnalyticImage litWaves() {
+  const AnalyticImage base = waves();
+  const AnalyticImage light = blobs();
+  return [base, light](const Eigen::Vector2d& p) {
+    const ImageJet a = composed(base(p), [](double value) {
+      return Eigen::Vector3d(value * value / 255.0, 2.0 * value / 255.0, 2.0 / 255.0);
+    });
+    const ImageJet b = light(p);
+    return ImageJet{a.value + 0.2 * b.value, a.gradient + 0.2 * b.gradient,
+                    a.hessian + 0.2 * b.hessian};
+  };
+}
+
+/// constant + gradient . offset + offset . H offset / 2 around a centre.
+inline AnalyticImage quadraticImage(double constant, const Eigen::Vector2d& centre,
+                                    const Eigen::Vector2d& gradient,
+                                    const Eigen::Matrix2d& hessian) {
+  return [=](const Eigen::Vector2d& p) {
+    const Eigen::Vector2d offset = p - centre;
+    return ImageJet{constant + gradient.dot(offset) + 0.5 * offset.dot(hessian * offset),
+                    gradient + hessian * offset, hessian};
+  };
+}
+
 /// The image on the pixel raster, CV_32FC1; pixel (x, y) shows the place (stride x, stride y).
 inline cv::Mat rasterised(const AnalyticImage& image, int width, int height, double stride = 1.0) {
   cv::Mat result(height, width, CV_32FC1);
