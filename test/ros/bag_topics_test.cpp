@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mivo/ros/bag_topics.h"
+
+#include <gtest/gtest.h>
+
+#include "ros/expect_error.h"
+
+namespace mivo {
+namespace {
+
+constexpr char kImage[] = "sensor_msgs/Image";
+constexpr char kCompressed[] = "sensor_msgs/CompressedImage";
+constexpr char kInfo[] = "sensor_msgs/CameraInfo";
+
+TEST(FindTopicsTest, EveryLayoutIsFound) {
+  for (const BagLayout& layout : bagLayouts()) {
+    const BagContents contents = {{layout.topics.colour, kImage},
+                                  {layout.topics.depth, kImage},
+                                  {layout.topics.camera_info, kInfo},
+                                  {"/imu", "sensor_msgs/Imu"}};
+    const RgbdTopics topics = findTopics(contents, {});
+    EXPECT_EQ(layout.topics.colour, topics.colour);
+    EXPECT_EQ(layout.topics.depth, topics.depth);
+    EXPECT_EQ(layout.topics.camera_info, topics.camera_info);
+  }
+}
+
+TEST(FindTopicsTest, CompressedTopicsAreFoundWhereRawOnesAreMissing) {
+  const RgbdTopics topics =
+      findTopics({{"/camera/color/image_raw/compressed", kCompressed},
+                  {"/camera/aligned_depth_to_color/image_raw/compressedDepth", kCompressed},
+                  {"/camera/color/camera_info", kInfo}},
+                 {});
+  EXPECT_EQ("/camera/color/image_raw/compressed", topics.colour);
+  EXPECT_EQ("/camera/aligned_depth_to_color/image_raw/compressedDepth", topics.depth);
+  EXPECT_EQ("/camera/color/camera_info", topics.camera_info);
+}
+
+TEST(FindTopicsTest, ThrottledTopicsHaveTheirCalibrationBesideThem) {
+  const RgbdTopics topics =
+      findTopics({{"/data_throttled_image/compressed", kCompressed},
+                  {"/data_throttled_image_depth/compressedDepth", kCompressed},
+                  {"/data_throttled_camera_info", kInfo}},
+                 {});
+  EXPECT_EQ("/data_throttled_camera_info", topics.camera_info);
+}
+
+TEST(FindTopicsTest, WantedTopicsAreTaken) {
+  const BagContents contents = {{"/a/image", kImage},
+                                {"/b/depth", kImage},
+                                {"/c/info", kInfo},
+                                {"/a/camera_info", kInfo},
+                                {"/camera/rgb/image_color", kImage},
+                                {"/camera/depth/image", kImage},
+                                {"/camera/rgb/camera_info", kInfo}};
+  const RgbdTopics topics = findTopics(contents, {"/a/image", "/b/depth", ""});
+  EXPECT_EQ("/a/image", topics.colour);
+  EXPECT_EQ("/b/depth", topics.depth);
+  EXPECT_EQ("/a/camera_info", topics.camera_info);
+  EXPECT_EQ("/c/info", findTopics(contents, {"/a/image", "/b/depth", "/c/info"}).camera_info);
+}
+
+TEST(FindTopicsTest, AWantedColourTopicGoesWithTheDepthOfItsDriver) {
+  const BagContents contents = {{"/camera/rgb/image_color", kImage},
+                                {"/camera/depth/image", kImage},
+                                {"/camera/rgb/image_raw", kImage},
+                                {"/camera/depth_registered/image_raw", kImage},
+                                {"/camera/rgb/camera_info", kInfo}};
+  EXPECT_EQ("/camera/depth_registered/image_raw",
+            findTopics(contents, {"/camera/rgb/image_raw", "", ""}).depth);
+  EXPECT_EQ("/camera/depth/image", findTopics(contents, {"/camera/rgb/image_color", "", ""}).depth);
+}
+
+TEST(FindTopicsTest, WhatIsMissingIsNamedWithWhatThereIs) {
+  const BagContents contents = {{"/left/image", kImage}, {"/camera/rgb/camera_info", kInfo}};
+  EXPECT_ERROR(findTopics(contents, {}), "/left/image");
+  EXPECT_ERROR(findTopics(contents, {"/nonsense", "", ""}), "no images on the topic /nonsense");
+  EXPECT_ERROR(findTopics({}, {}), "none");
+  EXPECT_ERROR(
+      findTopics({{"/camera/rgb/image_color", kImage}, {"/camera/depth/image", kImage}}, {}),
+      "no camera_info beside");
+  EXPECT_ERROR(findTopics({{"/a", kImage}, {"/b", kImage}}, {"/a", "/b", "/c"}),
+               "no camera_info on the topic /c");
+}
+
+TEST(BagLayoutTest, UnknownNamesAreRefusedWithTheKnownOnes) {
+  EXPECT_EQ("realsense", bagLayout("realsense").name);
+  EXPECT_ERROR(bagLayout("kinect"), "tum openni2 rtabmap realsense");
+}
+
+}  // namespace
+}  // namespace mivo

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mivo/ros/message_frame.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "mivo/ros/camera_conversion.h"
+#include "mivo/ros/status_conversion.h"
+#include "ros/expect_error.h"
+
+namespace mivo {
+namespace {
+
+sensor_msgs::Image makeImage(const std::string& encoding, std::uint32_t bytes) {
+  sensor_msgs::Image image;
+  image.header.stamp = ros::Time(12, 500000000);
+  image.width = 32;
+  image.height = 24;
+  image.encoding = encoding;
+  image.step = image.width * bytes;
+  image.data.resize(image.step * image.height, 4);  // 16 bits: 0x0404, 1.028 m
+  return image;
+}
+
+ImagePair makePair(const sensor_msgs::Image& colour, const sensor_msgs::Image& depth,
+                   std::uint32_t width = 32) {
+  Camera camera;
+  camera.width = static_cast<int>(width);
+  camera.height = 24;
+  camera.fx = camera.fy = 30.0;
+  camera.cx = camera.cy = 12.0;
+  return {wrap(boost::make_shared<sensor_msgs::Image>(colour)),
+          wrap(boost::make_shared<sensor_msgs::Image>(depth)),
+          boost::make_shared<sensor_msgs::CameraInfo>(toCameraInfo(camera))};
+}
+
+TEST(ToFrameTest, StampPixelsAndCalibrationAreThoseOfTheMessages) {
+  const ImagePair pair = makePair(makeImage("mono8", 1), makeImage("16UC1", 2));
+  const MessageFrame input = toFrame(pair, false);
+  EXPECT_EQ(12.5, input.frame.stamp);
+  EXPECT_EQ(30.0, input.camera.fx);
+  EXPECT_EQ(pair.colour->raw->data.data(), input.frame.image.data);  // not copied
+  EXPECT_EQ(pair.depth->raw->data.data(), input.frame.depth.data);
+}
+
+TEST(ToFrameTest, WhatDoesNotFitIsRefusedWithTheReason) {
+  EXPECT_ERROR(toFrame(makePair(makeImage("mono8", 1), makeImage("16UC1", 2), 640), false), "640");
+  EXPECT_ERROR(toFrame(makePair(makeImage("16UC1", 2), makeImage("mono8", 1)), false), "16UC1");
+  sensor_msgs::Image small = makeImage("16UC1", 2);
+  small.height = 12;
+  small.data.resize(small.step * small.height);
+  EXPECT_ERROR(toFrame(makePair(makeImage("mono8", 1), small), false), "register");
+}
+
+TEST(SampleDepthTest, CoverageAndMedianOfBothTypes) {
+  Frame frame;
+  frame.depth = cv::Mat(64, 64, CV_16UC1, cv::Scalar(2000));
+  frame.depth.colRange(0, 32) = cv::Scalar(0);
+  EXPECT_EQ(0.5, sampleDepth(frame).coverage);
+  EXPECT_EQ(2.0, sampleDepth(frame).median);
+  frame.depth = cv::Mat(64, 64, CV_32FC1, cv::Scalar(std::numeric_limits<float>::quiet_NaN()));
+  EXPECT_EQ(0.0, sampleDepth(frame).coverage);
+  EXPECT_EQ(0.0, sampleDepth(frame).median);
+  frame.depth.rowRange(0, 16) = cv::Scalar(1.5);
+  EXPECT_EQ(0.25, sampleDepth(frame).coverage);
+  EXPECT_EQ(1.5, sampleDepth(frame).median);
+}
+
+TEST(StatusTest, CodesAreThoseOfTheMessageDefinition) {
+  TrackingResult result;
+  const std::pair<TrackingState, int> states[] = {
+      {TrackingState::kInitialising, TrackingStatus::INITIALISING},
+      {TrackingState::kTracking, TrackingStatus::TRACKING},
+      {TrackingState::kDegraded, TrackingStatus::DEGRADED},
+      {TrackingState::kLost, TrackingStatus::LOST}};
+  for (const auto& [state, code] : states) {
+    result.state = state;
+    EXPECT_EQ(code, toMessage(result).state);
+    EXPECT_EQ(toString(state), toMessage(result).state_text);
+  }
+  const std::pair<TrackingReason, int> reasons[] = {
+      {TrackingReason::kNone, 0},         {TrackingReason::kInvalidFrame, 1},
+      {TrackingReason::kTooFewPoints, 2}, {TrackingReason::kNoOverlap, 3},
+      {TrackingReason::kSingular, 4},     {TrackingReason::kImplausibleMotion, 5},
+      {TrackingReason::kNotFinite, 6},    {TrackingReason::kNoInformation, 7}};
+  for (const auto& [reason, code] : reasons) {
+    result.reason = reason;
+    EXPECT_EQ(code, toMessage(result).reason);
+    EXPECT_EQ(toString(reason), toMessage(result).reason_text);
+  }
+}
+
+TEST(StatusTest, LevelsKeepTheirOrder) {
+  TrackingResult result;
+  result.num_levels = 2;
+  result.levels[0].level = 4;
+  result.levels[0].mutual_information = true;
+  result.levels[1].level = 3;
+  result.levels[1].iterations = 7;
+  const TrackingStatus message = toMessage(result);
+  ASSERT_EQ(2U, message.levels.size());
+  EXPECT_EQ(4, message.levels[0].level);
+  EXPECT_TRUE(message.levels[0].mutual_information);
+  EXPECT_EQ(7, message.levels[1].iterations);
+}
+
+}  // namespace
+}  // namespace mivo
