@@ -21,8 +21,8 @@ class FrameSource {
 
   enum class Status { kFrame, kSkipped, kEnd };
 
-  /// Reads the next frame. kSkipped: this frame is broken, `fault` says what and where; reading goes
-  /// on with the next call. Throws Error only when nothing further can be read.
+  /// Reads the next frame. kSkipped: this frame is broken, `fault` says what and where; reading
+  /// goes on with the next call. Throws Error only when nothing further can be read.
   virtual Status next(Frame& frame, std::string& fault) = 0;
 };
 
