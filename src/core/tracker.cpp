@@ -56,10 +56,8 @@ class LevelAligner {
  private:
   template <typename Term>
   bool isEnoughInView(Term& term) const {
-    const auto needed = static_cast<std::size_t>(parameters_.lost_points);
-    if (points_.size() < needed) return false;
-    term.evaluate(alignment_.T_live_ref);
-    return term.numVisible() >= needed;
+    term.evaluate(alignment_.T_live_ref);  // always: the term is asked for its samples later
+    return term.numVisible() >= static_cast<std::size_t>(parameters_.lost_points);
   }
 
   /// The geometric term, if enough of its points have depth in the live frame.
@@ -82,7 +80,7 @@ class LevelAligner {
     alignment_.condition = minimum.condition;
     record_.iterations += minimum.iterations;
     record_.evaluations += minimum.evaluations;
-    record_.cost = minimum.cost / static_cast<double>(points_.size());
+    record_.cost = minimum.cost / static_cast<double>(std::max<std::size_t>(1, points_.size()));
     record_.line_search_milliseconds += minimum.line_search_milliseconds;
   }
 
