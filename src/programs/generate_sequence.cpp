@@ -92,6 +92,8 @@ void addColourOptions(mivo::CommandLine& line, Request& request) {
       "max-exposure-time", number(s.exposure_control.max_time, "0.030"), "s, with --auto-exposure")(
       "max-gain", number(s.exposure_control.max_gain, "16"), "with --auto-exposure")(
       "no-blur", po::bool_switch(&request.no_blur), "no motion blur")(
+      "lens-blur", number(s.lens_blur, "0.5"),
+      "standard deviation of the lens' point image, pixels")(
       "samples", number(s.samples, "4"), "rays per pixel, more where motion asks for it")(
       "readout", number(s.readout, "0"), "s, rolling shutter: from the first to the last row")(
       "no-noise", po::bool_switch(&request.no_noise), "no noise in colour and depth")(

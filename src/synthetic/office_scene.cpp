@@ -128,8 +128,8 @@ Scene makeOffice(std::uint64_t seed) {
   b.scene.viewpoint.yaw_reach = 0.6;
   b.scene.viewpoint.pitch_reach = 0.17;
   b.scene.viewpoint.pitch = -0.22;
-  b.scene.moving_lamp_centre = {1.15F, 0.0F, 1.5F};
-  b.scene.moving_lamp_reach = {0.3F, 1.1F, 0.35F};
+  b.scene.moving_lamp_centre = {1.1F, 0.0F, 1.55F};
+  b.scene.moving_lamp_reach = {0.25F, 1.1F, 0.25F};
   return std::move(b.scene);
 }
 

@@ -110,8 +110,8 @@ Scene makeRoom(std::uint64_t seed) {
   b.scene.viewpoint.yaw_reach = 0.6;
   b.scene.viewpoint.pitch_reach = 0.18;
   b.scene.viewpoint.pitch = -0.17;
-  b.scene.moving_lamp_centre = {1.2F, 0.0F, 1.55F};
-  b.scene.moving_lamp_reach = {0.35F, 1.35F, 0.4F};
+  b.scene.moving_lamp_centre = {0.95F, 0.0F, 1.55F};
+  b.scene.moving_lamp_reach = {0.3F, 1.2F, 0.4F};
   return std::move(b.scene);
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/imgproc.hpp>
 
 #include "mivo/core/error.h"
 #include "mivo/core/se3.h"
@@ -14,7 +15,8 @@ namespace {
 constexpr double kFirstStamp = 1.0;  // s; 0 would look like a stamp that was never set
 // Signal that one lux times reflectance gives in one second, in units of saturation. In 61 lux, an
 // exposure of 10 ms at gain 1 then gives an indoor image of ordinary brightness.
-constexpr double kSensitivity = 0.9;
+constexpr double kSensitivity = 2.2;
+constexpr double kMostLensBlur = 20.0;  // pixels
 constexpr int kMostSamples = 48;
 constexpr double kNearDepth = 1.0;  // m, at which the extent of motion blur is estimated
 
@@ -32,11 +34,11 @@ const GeneratorOptions& checked(const GeneratorOptions& options) {
   if (!(sensor.exposure_time > 0.0) || sensor.exposure_time > 1.0 / options.rate ||
       !(sensor.gain >= 0.0) || sensor.samples < 1 || sensor.samples > kMostSamples ||
       !(sensor.readout >= 0.0) || sensor.readout > 1.0 / options.rate ||
-      !(sensor.stereo_baseline >= 0.0)) {
+      !(sensor.stereo_baseline >= 0.0) || !(sensor.lens_blur >= 0.0) ||
+      sensor.lens_blur > kMostLensBlur) {
     throw Error(
         "generator: exposure and read-out time must be within a frame's period, samples within "
-        "1..48, gain and "
-        "stereo baseline not negative");
+        "1..48, gain and stereo baseline not negative, lens blur within 0..20 pixels");
   }
   return options;
 }

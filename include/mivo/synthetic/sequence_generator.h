@@ -25,14 +25,16 @@ struct SensorOptions {
   double exposure_time = 0.010;  ///< s, of the first frame, and of all without automatic exposure
   double gain = 0.0;             ///< 0: metered once, so that the first frame's mean is the target
   bool motion_blur = true;
-  int samples = 4;       ///< rays per pixel at least; more where motion would leave gaps
-  double readout = 0.0;  ///< s, rolling shutter; 0: global
+  double lens_blur = 0.5;  ///< standard deviation of the lens' point image, pixels; 0: none
+  int samples = 4;         ///< rays per pixel at least; more where motion would leave gaps
+  double readout = 0.0;    ///< s, rolling shutter; 0: global
   DepthSensorOptions depth;
   Eigen::Vector2d depth_offset =
       Eigen::Vector2d::Zero();   ///< pixels, faulty registration (Renderer::renderSurface)
   double stereo_baseline = 0.0;  ///< m to the right camera; 0: there is none
 
-  /// Switches noise, blur, quantisation and holes off.
+  /// Switches noise, motion blur, quantisation and holes off. The lens stays: without it the image
+  /// would not be band-limited, and no interpolation of it exact.
   void makeIdeal();
 };
 

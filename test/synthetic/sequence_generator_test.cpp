@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mivo/synthetic/sequence_generator.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <opencv2/core.hpp>
+#include <vector>
+
+#include "mivo/core/error.h"
+
+namespace mivo {
+namespace {
+
+GeneratorOptions smallOptions() {
+  GeneratorOptions options;
+  options.scene = "wall";
+  options.frames = 3;
+  options.camera = xtionCamera(160, 120);
+  return options;
+}
+
+std::vector<SyntheticFrame> film(const GeneratorOptions& options) {
+  SequenceGenerator generator(options);
+  std::vector<SyntheticFrame> frames;
+  while (!generator.atEnd()) frames.push_back(generator.next());
+  return frames;
+}
+
+double difference(const cv::Mat& a, const cv::Mat& b) {
+  return cv::norm(a, b, cv::NORM_INF);
+}
+
+TEST(SequenceGenerator, SameBytesForAnyNumberOfThreadsAndInEveryRun) {
+  GeneratorOptions options = smallOptions();
+  options.lighting = "moving_lamp";  // has random shadow rays, too
+  const int threads = cv::getNumThreads();
+  cv::setNumThreads(1);
+  const std::vector<SyntheticFrame> one = film(options);
+  cv::setNumThreads(5);
+  const std::vector<SyntheticFrame> five = film(options);
+  cv::setNumThreads(threads);
+  for (std::size_t k = 0; k < one.size(); ++k) {
+    EXPECT_EQ(difference(one[k].colour, five[k].colour), 0.0) << k;
+    EXPECT_EQ(difference(one[k].depth, five[k].depth), 0.0) << k;
+    EXPECT_EQ(one[k].T_world_camera.matrix(), five[k].T_world_camera.matrix()) << k;
+  }
+}
+
+TEST(SequenceGenerator, SeedsGiveDifferentSequences) {
+  GeneratorOptions options = smallOptions();
+  options.frames = 1;
+  const cv::Mat first = film(options)[0].colour;
+  options.seed = 2;
+  EXPECT_GT(cv::norm(first, film(options)[0].colour, cv::NORM_L1) /
+                static_cast<double>(first.total() * 3),
+            10.0);
+}
+
+TEST(SequenceGenerator, StampsAndPosesBelongTogether) {
+  SequenceGenerator generator(smallOptions());
+  for (int k = 0; k < 3; ++k) {
+    const SyntheticFrame frame = generator.next();
+    EXPECT_NEAR(frame.stamp, 1.0 + k / 30.0, 1e-12);
+    EXPECT_EQ(frame.T_world_camera.matrix(), generator.path().poseAt(k / 30.0).matrix());
+    EXPECT_EQ(frame.depth.type(), CV_16UC1);
+    EXPECT_EQ(frame.colour.size(), cv::Size(160, 120));
+    EXPECT_TRUE(frame.right.empty());
+  }
+  EXPECT_TRUE(generator.atEnd());
+}
+
+TEST(SequenceGenerator, FirstFrameIsMetered) {
+  for (const std::string& scene : sceneNames()) {
+    GeneratorOptions options = smallOptions();
+    options.scene = scene;
+    options.frames = 1;
+    EXPECT_NEAR(meanGrey(film(options)[0].colour), 110.0, 4.0) << scene;
+  }
+}
+
+// Each row of a rolling shutter is the row of a global shutter at that row's time, byte for byte.
+TEST(SequenceGenerator, RowsOfARollingShutterSeeTheirOwnTime) {
+  GeneratorOptions options = smallOptions();
+  options.trajectory = "fast_rotation";
+  const SequenceGenerator generator(options);
+  const Renderer& renderer = generator.renderer();
+  const SceneLighting lighting("oscillating", {30, 1.0 / 30.0}, renderer.scene());
+  const PoseAtTime pose = [&](double t) { return generator.path().poseAt(t); };
+  const LightAtTime light = [&](double t) { return lighting.at(t); };
+  Shutter rolling;
+  rolling.mid_time = 0.4;
+  rolling.exposure = 0.01;
+  rolling.readout = 0.025;
+  rolling.samples = 3;
+  const cv::Mat image = renderer.renderColour(pose, light, rolling);
+  const SurfaceImage surface =
+      renderer.renderSurface(pose, light, rolling, Eigen::Vector2f::Zero());
+  for (const int row : {0, 31, 60, 119}) {
+    Shutter global = rolling;
+    global.readout = 0.0;
+    global.mid_time = 0.4 + ((row + 0.5) / 120 - 0.5) * 0.025;
+    EXPECT_EQ(difference(image.row(row), renderer.renderColour(pose, light, global).row(row)), 0.0)
+        << row;
+    EXPECT_EQ(
+        difference(
+            surface.depth.row(row),
+            renderer.renderSurface(pose, light, global, Eigen::Vector2f::Zero()).depth.row(row)),
+        0.0)
+        << row;
+  }
+  Shutter wrong = rolling;
+  wrong.readout = 0.0;
+  EXPECT_GT(difference(image.row(0), renderer.renderColour(pose, light, wrong).row(0)), 0.0);
+}
+
+TEST(SequenceGenerator, MotionBlurIsTheMeanOverTheExposure) {
+  const SequenceGenerator generator(smallOptions());
+  const Renderer& renderer = generator.renderer();
+  const SceneLighting lighting("constant", {30, 1.0 / 30.0}, renderer.scene());
+  const LightAtTime light = [&](double t) { return lighting.at(t); };
+  // A sideways shift by three pixels at the wall's depth, against three still images shifted by
+  // one.
+  const auto still = [&](double shift) {
+    Shutter sharp;
+    return renderer.renderColour(
+        [&](double) {
+          return generator.path().poseAt(0.0) * Eigen::Translation3d(shift, 0.0, 0.0);
+        },
+        light, sharp);
+  };
+  Shutter blurred;
+  blurred.exposure = 0.3;
+  blurred.samples = 3;
+  const cv::Mat image = renderer.renderColour(
+      [&](double t) {
+        return generator.path().poseAt(0.0) * Eigen::Translation3d(0.4 * t, 0.0, 0.0);
+      },
+      light, blurred);
+  const cv::Mat mean = (still(-0.04) + still(0.0) + still(0.04)) / 3.0;
+  // The samples also spread over the pixel, hence the tolerance: far below what blur changes.
+  const double error = cv::norm(image, mean, cv::NORM_L1);
+  EXPECT_LT(error, 0.5 * cv::norm(image, still(0.0), cv::NORM_L1));
+}
+
+TEST(SequenceGenerator, RightCameraSeesTheDisparity) {
+  GeneratorOptions options = smallOptions();
+  options.frames = 1;
+  options.trajectory = "static";
+  options.sensor.makeIdeal();
+  options.sensor.stereo_baseline = 0.1;
+  const SyntheticFrame frame = film(options)[0];
+  ASSERT_EQ(frame.right.size(), frame.colour.size());
+  double matched = 0.0;
+  double unmatched = 0.0;
+  for (int y = 5; y < 115; ++y) {
+    for (int x = 30; x < 150; ++x) {
+      const double disparity = options.camera.fx * 0.1 / frame.exact_depth.at<float>(y, x);
+      const double u = x - disparity;
+      const int u0 = static_cast<int>(std::floor(u));
+      if (u0 < 0) continue;
+      const double a = u - u0;
+      const double there = (1 - a) * frame.right.at<cv::Vec3b>(y, u0)[1] +
+                           a * frame.right.at<cv::Vec3b>(y, u0 + 1)[1];
+      matched += std::abs(there - frame.colour.at<cv::Vec3b>(y, x)[1]);
+      unmatched +=
+          std::abs(frame.right.at<cv::Vec3b>(y, x)[1] - frame.colour.at<cv::Vec3b>(y, x)[1]);
+    }
+  }
+  EXPECT_LT(matched, 0.35 * unmatched);
+}
+
+TEST(SequenceGenerator, DepthOffsetShiftsTheDepthImage) {
+  GeneratorOptions options = smallOptions();
+  options.frames = 1;
+  options.sensor.makeIdeal();
+  const cv::Mat exact = film(options)[0].depth;
+  options.sensor.depth_offset = {3.0, 2.0};
+  const cv::Mat shifted = film(options)[0].depth;
+  // Pixel p shows what belongs to p + offset (to the rounding of a unit).
+  EXPECT_LE(difference(shifted(cv::Rect(0, 0, 157, 118)), exact(cv::Rect(3, 2, 157, 118))), 1.0);
+}
+
+TEST(SequenceGenerator, AutomaticExposureLagsBehindTheLight) {
+  GeneratorOptions options = smallOptions();
+  options.camera = xtionCamera(64, 48);
+  options.trajectory = "static";
+  options.lighting = "step";
+  options.frames = 60;  // the light falls with frame 30
+  options.sensor.exposure_control.automatic = true;
+  options.sensor.exposure_control.delay = 7;
+  const std::vector<SyntheticFrame> frames = film(options);
+  const double before = frames[25].exposure.product();
+  const double wanted = before * frames[25].lux / frames[40].lux;
+  EXPECT_NEAR(frames[36].exposure.product() / before, 1.0, 0.02);
+  EXPECT_GT(frames[37].exposure.product() / before, 1.5);
+  EXPECT_NEAR(meanGrey(frames[59].colour), 110.0, 6.0);
+  EXPECT_GT(frames[59].exposure.product(), 0.7 * wanted);
+  EXPECT_LT(meanGrey(frames[32].colour), 70.0);
+}
+
+TEST(SequenceGenerator, RefusesWhatCannotBeFilmed) {
+  GeneratorOptions options = smallOptions();
+  options.frames = 0;
+  EXPECT_THROW(SequenceGenerator{options}, Error);
+  options = smallOptions();
+  options.sensor.exposure_time = 0.05;  // longer than a frame
+  EXPECT_THROW(SequenceGenerator{options}, Error);
+  options = smallOptions();
+  options.sensor.samples = 0;
+  EXPECT_THROW(SequenceGenerator{options}, Error);
+  options = smallOptions();
+  options.lighting = "sunset";
+  EXPECT_THROW(SequenceGenerator{options}, Error);
+}
+
+}  // namespace
+}  // namespace mivo
