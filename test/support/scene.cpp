@@ -89,6 +89,42 @@ unsigned char greyLevel(double value) {
   return static_cast<unsigned char>(std::lround(std::min(std::max(value, 0.0), 255.0)));
 }
 
+double lightOf(const Light& light, double brightness, double x, double y) {
+  double value = light.gain * std::pow(brightness, light.gamma) + light.offset;
+  if (light.spot != 0.0) {
+    const double square = (Eigen::Vector2d(x, y) - light.spot_centre).squaredNorm();
+    value += light.spot * std::exp(-0.5 * square / (light.spot_radius * light.spot_radius));
+  }
+  return value;
+}
+
+template <typename PoseOfRow>
+Frame renderRows(const Scene& scene, const Camera& camera, const PoseOfRow& poseOfRow,
+                 const Light& light, const Sensor& sensor) {
+  std::vector<Texture> textures;
+  for (const Rectangle& rectangle : scene) textures.emplace_back(rectangle.texture);
+  Frame frame;
+  frame.image.create(camera.height, camera.width, CV_8UC1);
+  frame.depth =
+      cv::Mat::zeros(camera.height, camera.width, sensor.integer_depth ? CV_16UC1 : CV_32FC1);
+  for (int y = 0; y < camera.height; ++y) {
+    const Eigen::Isometry3d T_world_camera = poseOfRow(y);
+    for (int x = 0; x < camera.width; ++x) {
+      // The ray has depth 1, so the distance along it is the depth of what it hits.
+      const Hit hit = castRay(scene, textures, T_world_camera.translation(),
+                              T_world_camera.linear() * camera.ray({x, y}));
+      frame.image.at<unsigned char>(y, x) = greyLevel(255.0 * lightOf(light, hit.brightness, x, y));
+      if (sensor.integer_depth) {
+        frame.depth.at<unsigned short>(y, x) =
+            static_cast<unsigned short>(std::lround(1000.0 * hit.depth));
+      } else {
+        frame.depth.at<float>(y, x) = static_cast<float>(hit.depth);
+      }
+    }
+  }
+  return frame;
+}
+
 }  // namespace
 
 Scene wallScene() {
@@ -112,34 +148,30 @@ Scene roomScene() {
 
 Frame render(const Scene& scene, const Camera& camera, const Eigen::Isometry3d& T_world_camera,
              const Light& light, const Sensor& sensor) {
-  std::vector<Texture> textures;
-  for (const Rectangle& rectangle : scene) textures.emplace_back(rectangle.texture);
-  Random random(sensor.seed);
-  Frame frame;
-  frame.image.create(camera.height, camera.width, CV_8UC1);
-  frame.depth =
-      cv::Mat::zeros(camera.height, camera.width, sensor.integer_depth ? CV_16UC1 : CV_32FC1);
-  for (int y = 0; y < camera.height; ++y) {
-    for (int x = 0; x < camera.width; ++x) {
-      // The ray has depth 1, so the distance along it is the depth of what it hits.
-      const Hit hit = castRay(scene, textures, T_world_camera.translation(),
-                              T_world_camera.linear() * camera.ray({x, y}));
-      const double square = (Eigen::Vector2d(x, y) - light.spot_centre).squaredNorm();
-      const double spot =
-          light.spot * std::exp(-0.5 * square / (light.spot_radius * light.spot_radius));
-      const double noise = sensor.noise > 0.0 ? sensor.noise * random.normal() : 0.0;
-      frame.image.at<unsigned char>(y, x) = greyLevel(
-          255.0 * (light.gain * std::pow(hit.brightness, light.gamma) + light.offset + spot) +
-          noise);
-      if (sensor.integer_depth) {
-        frame.depth.at<unsigned short>(y, x) =
-            static_cast<unsigned short>(std::lround(1000.0 * hit.depth));
-      } else {
-        frame.depth.at<float>(y, x) = static_cast<float>(hit.depth);
-      }
+  return renderRows(
+      scene, camera, [&](int) { return T_world_camera; }, light, sensor);
+}
+
+Frame renderRolling(const Scene& scene, const Camera& camera,
+                    const Eigen::Isometry3d& T_world_camera, const Vector6& twist) {
+  const auto poseOfRow = [&](int row) {
+    const double tau = static_cast<double>(row) / camera.height - 0.5;
+    return T_world_camera * retract(tau * twist);
+  };
+  return renderRows(scene, camera, poseOfRow, {}, {});
+}
+
+Frame withNoise(const Frame& frame, double deviation, std::uint64_t seed) {
+  Random random(seed);
+  Frame noisy = frame;
+  noisy.image = frame.image.clone();
+  for (int y = 0; y < noisy.image.rows; ++y) {
+    for (int x = 0; x < noisy.image.cols; ++x) {
+      auto& pixel = noisy.image.at<unsigned char>(y, x);
+      pixel = greyLevel(pixel + deviation * random.normal());
     }
   }
-  return frame;
+  return noisy;
 }
 
 Camera smallCamera() {

@@ -7,6 +7,7 @@
 
 #include "mivo/core/camera.h"
 #include "mivo/core/frame.h"
+#include "mivo/core/se3.h"
 
 namespace mivo::testing {
 
@@ -54,6 +55,14 @@ struct Sensor {
 /// exact (0 where no rectangle is hit).
 Frame render(const Scene& scene, const Camera& camera, const Eigen::Isometry3d& T_world_camera,
              const Light& light = {}, const Sensor& sensor = {});
+
+/// The same with the rows read one after the other: while the rows are read, the camera moves from
+/// T retract(-twist / 2) to T retract(twist / 2), T being its pose at the middle row.
+Frame renderRolling(const Scene& scene, const Camera& camera,
+                    const Eigen::Isometry3d& T_world_camera, const Vector6& twist);
+
+/// A frame with normal noise of this standard deviation (grey levels) on its image.
+Frame withNoise(const Frame& frame, double deviation, std::uint64_t seed);
 
 /// A small camera without distortion: 160 x 120 pixels, 63 degrees wide.
 Camera smallCamera();

@@ -76,11 +76,8 @@ TEST(SceneTest, LightAndNoiseDoWhatTheySay) {
   const Frame dimmed = render(wallScene(), camera, pose, half);
   const double t = (plain.image.at<unsigned char>(50, 60) / 255.0 - 0.03) / 0.9;
   EXPECT_NEAR(dimmed.image.at<unsigned char>(50, 60), 255.0 * (0.45 * t + 0.1), 1.0);
-  Sensor noisy;
-  noisy.noise = 4.0;
   cv::Mat difference;
-  cv::subtract(render(wallScene(), camera, pose, {}, noisy).image, plain.image, difference,
-               cv::noArray(), CV_32F);
+  cv::subtract(withNoise(plain, 4.0, 1).image, plain.image, difference, cv::noArray(), CV_32F);
   cv::Scalar mean;
   cv::Scalar deviation;
   cv::meanStdDev(difference, mean, deviation);
@@ -94,6 +91,16 @@ TEST(SceneTest, IntegerDepthIsInMillimetres) {
   const Frame frame = render(wallScene(), smallCamera(), Eigen::Isometry3d::Identity(), {}, sensor);
   ASSERT_EQ(frame.depth.type(), CV_16UC1);
   EXPECT_EQ(frame.depth.at<unsigned short>(3, 4), 2000);
+}
+
+TEST(SceneTest, RowsOfARollingShutterAreSeenFromTheirOwnPose) {
+  const Camera camera = smallCamera();
+  const Vector6 twist = (Vector6() << 0.1, 0.0, 0.0, 0.0, 0.05, 0.0).finished();
+  const Frame rolling = renderRolling(roomScene(), camera, Eigen::Isometry3d::Identity(), twist);
+  for (const int row : {0, 60, 90}) {
+    const Frame still = render(roomScene(), camera, retract((row / 120.0 - 0.5) * twist));
+    EXPECT_EQ(cv::norm(rolling.image.row(row), still.image.row(row), cv::NORM_INF), 0.0) << row;
+  }
 }
 
 }  // namespace
