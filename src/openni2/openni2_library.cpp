@@ -60,7 +60,7 @@ std::string oneLine(const std::string& text) {
   for (std::string word; words >> word;) {
     line += (line.empty() ? "" : " ") + word;
   }
-  while (!line.empty() && line.back() == '.') {
+  while (!line.empty() && (line.back() == '.' || line.back() == '!')) {
     line.pop_back();
   }
   return line;

@@ -31,7 +31,7 @@ class OpenNi2Library {
 /// The SDK's last words in this thread, as one line.
 std::string sdkError();
 
-/// Words separated by single spaces, without a full stop at the end.
+/// Words separated by single spaces, without a full stop or exclamation mark at the end.
 std::string oneLine(const std::string& text);
 
 }  // namespace mivo

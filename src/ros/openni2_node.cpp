@@ -36,7 +36,7 @@ OpenNi2Node::OpenNi2Node(const ros::NodeHandle& node, const ros::NodeHandle& pri
       parameters_(readCameraParameters(private_node)),
       publisher_(private_node, parameters_,
                  [this](const StreamDemand& demand) { setDemand(demand); }),
-      server_(private_node) {
+      server_(server_mutex_, private_node) {
   if (parameters_.publish_tf) {
     broadcaster_.sendTransform(cameraTransforms(parameters_));
   }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A recording made of the virtual camera plays back equal through the same class.
 
-#include <OpenNI.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -9,6 +8,7 @@
 #include <map>
 
 #include "mivo/openni2/openni2_device.h"
+#include "openni2/recorder.h"
 #include "virtual_xtion_fixture.h"
 
 namespace mivo {
@@ -26,62 +26,11 @@ class RecordingTest : public VirtualXtionTest {
     VirtualXtionTest::TearDown();
     alarm(0);
   }
-
-  static openni::VideoMode mode(openni::PixelFormat format) {
-    openni::VideoMode mode;
-    mode.setResolution(640, 480);
-    mode.setFps(30);
-    mode.setPixelFormat(format);
-    return mode;
-  }
-
-  // Records until the sequence is over; returns the number of colour images seen meanwhile.
-  void record(const std::string& path) {
-    ASSERT_EQ(openni::OpenNI::initialize(), openni::STATUS_OK);
-    {
-      openni::Device device;
-      ASSERT_EQ(device.open("virtual_xtion://0"), openni::STATUS_OK);
-      openni::VideoStream color;
-      openni::VideoStream depth;
-      ASSERT_EQ(color.create(device, openni::SENSOR_COLOR), openni::STATUS_OK);
-      ASSERT_EQ(depth.create(device, openni::SENSOR_DEPTH), openni::STATUS_OK);
-      color.setVideoMode(mode(openni::PIXEL_FORMAT_RGB888));
-      depth.setVideoMode(mode(openni::PIXEL_FORMAT_DEPTH_1_MM));
-      color.setMirroringEnabled(false);
-      depth.setMirroringEnabled(false);
-      device.setImageRegistrationMode(openni::IMAGE_REGISTRATION_DEPTH_TO_COLOR);
-      device.setDepthColorSyncEnabled(true);
-      openni::Recorder recorder;
-      ASSERT_EQ(recorder.create(path.c_str()), openni::STATUS_OK);
-      ASSERT_EQ(recorder.attach(color), openni::STATUS_OK);
-      ASSERT_EQ(recorder.attach(depth), openni::STATUS_OK);
-      ASSERT_EQ(recorder.start(), openni::STATUS_OK);
-      color.start();
-      depth.start();
-      play();
-      openni::VideoStream* streams[] = {&color, &depth};
-      int ready = 0;
-      for (int images = 0; images < 2 * (kFrames + 12); ++images) {
-        ASSERT_EQ(openni::OpenNI::waitForAnyStream(streams, 2, &ready, 2000), openni::STATUS_OK);
-        openni::VideoFrameRef frame;
-        streams[ready]->readFrame(&frame);
-      }
-      // The streams first: stopping a recorder under running streams can lock up for ever.
-      color.stop();
-      depth.stop();
-      recorder.stop();
-      recorder.destroy();
-      color.destroy();
-      depth.destroy();
-    }
-    openni::OpenNI::shutdown();
-  }
 };
 
 TEST_F(RecordingTest, PlaysBackEqualAndThenFallsSilent) {
   const std::string path = folder_ + "/recording.oni";
-  record(path);
-  ASSERT_FALSE(HasFatalFailure());
+  recordVirtualXtion(path, 2 * (kFrames + 12), [this] { play(); });
   control("present", 0);  // the recording needs no camera
 
   DeviceRequest request;

@@ -6,6 +6,7 @@
 #include <ros/node_handle.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 
+#include <boost/thread/recursive_mutex.hpp>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -53,6 +54,7 @@ class OpenNi2Node : private CameraListener {
   CameraPublisher publisher_;
   std::unique_ptr<CameraThread> thread_;
   OpenNI2Config config_;
+  boost::recursive_mutex server_mutex_;
   dynamic_reconfigure::Server<OpenNI2Config> server_;
   ros::WallTimer settings_timer_;
   std::unique_ptr<CameraDiagnostics> diagnostics_;

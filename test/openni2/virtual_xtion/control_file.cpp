@@ -20,6 +20,7 @@ const std::map<std::string, std::function<void(Control&, std::istream&)>>& field
   static const std::map<std::string, std::function<void(Control&, std::istream&)>> table{
       {"folder", field(&Control::folder)},
       {"truth", field(&Control::truth)},
+      {"decode_first", field(&Control::decode_first)},
       {"devices", field(&Control::devices)},
       {"present", field(&Control::present)},
       {"in_use", field(&Control::in_use)},
@@ -29,6 +30,7 @@ const std::map<std::string, std::function<void(Control&, std::istream&)>>& field
       {"settings", field(&Control::settings)},
       {"deaf", field(&Control::deaf)},
       {"start", field(&Control::start)},
+      {"pace", field(&Control::pace)},
       {"rate", field(&Control::rate)},
       {"drop_every", field(&Control::drop_every)},
       {"color_stalls", field(&Control::color_stalls)},

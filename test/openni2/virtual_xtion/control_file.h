@@ -11,6 +11,7 @@ namespace virtual_xtion {
 struct Control {
   std::string folder;          ///< sequence in TUM layout, 640x480
   std::string truth;           ///< file that gets a line for each image taken: see Truth
+  bool decode_first = false;   ///< all images are decoded when a camera is opened
   int devices = 1;             ///< cameras to offer
   bool present = true;         ///< plugged in
   bool in_use = false;         ///< another process has it
@@ -20,6 +21,7 @@ struct Control {
   bool settings = true;        ///< has exposure, gain and white balance
   bool deaf = false;           ///< ignores settings for good
   std::int64_t start = 0;      ///< host time, ns, from which the sequence plays; 0: first image
+  int pace = 1;                ///< the sequence, and with it the camera, is slower by this
   int rate = 30;               ///< Hz that get through USB; images in between are lost
   int drop_every = 0;          ///< every n-th image is lost; 0: none
   bool color_stalls = false;   ///< no more colour images

@@ -61,6 +61,9 @@ VirtualDevice::VirtualDevice(const SharedControl& control, int number)
   }
   sensors_.push_back(
       {ONI_SENSOR_DEPTH, static_cast<int>(depth_modes_.size()), depth_modes_.data()});
+  while (control.get().decode_first && decoded_ + 1 < sequence_.size()) {
+    decodeAhead();
+  }
   thread_ = std::thread(&VirtualDevice::run, this);
 }
 
@@ -163,15 +166,16 @@ void VirtualDevice::run() {
     if (now >= timeOf(tick)) {
       take(tick, control_.get());
       deliverDue(hostNow());
+      decodeAhead();
       // A machine that was away for longer than an image takes loses the ones in between.
-      tick = std::max(tick + 1, tickAt(hostNow()));
+      tick = std::max(tick + 1, tickAt(hostNow()) + 1);
     }
   }
 }
 
 bool VirtualDevice::isLost(std::int64_t tick, const Control& control) const {
   const bool through_usb = tick * control.rate / kRate != (tick - 1) * control.rate / kRate;
-  return !control.present || !through_usb ||
+  return !control.present || !through_usb || tick % control.pace != 0 ||
          (control.drop_every > 0 && tick % control.drop_every == 0);
 }
 
@@ -180,10 +184,10 @@ void VirtualDevice::take(std::int64_t tick, const Control& control) {
   const std::int64_t start_tick = tickAt(control.start) + 1;
   const std::int64_t last = static_cast<std::int64_t>(sequence_.size()) - 1;
   const auto frame = static_cast<std::size_t>(
-      control.start == 0 ? 0 : std::clamp<std::int64_t>(tick - start_tick, 0, last));
+      control.start == 0 ? 0
+                         : std::clamp<std::int64_t>((tick - start_tick) / control.pace, 0, last));
   const ServedSequence::Images& images = sequence_.images(frame);
-  // Decoding the next one now keeps it from being late.
-  sequence_.images(std::min(frame + 1, sequence_.size() - 1));
+  decoded_ = std::max(decoded_, frame);
   const int index = static_cast<int>(tick - tickAt(power_on_));
   std::exponential_distribution<double> delay(1.0);
   for (const auto& [sensor, stream] : streams_) {
@@ -201,6 +205,12 @@ void VirtualDevice::take(std::int64_t tick, const Control& control) {
       logTruth(stamp, host, frame, control);
     }
   }
+}
+
+// Between two images, so that none is late because it has to be decoded.
+void VirtualDevice::decodeAhead() {
+  decoded_ = std::min(decoded_ + 1, sequence_.size() - 1);
+  sequence_.images(decoded_);
 }
 
 cv::Mat VirtualDevice::seen(OniSensorType sensor, VirtualStream& stream,

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Camera and odometry nodelets in one process, as in a manager: each image is allocated once, by
+// the camera, and what a subscriber sees lies at that address. All allocations of this process are
+// seen by the operator new below.
+
+#include <diagnostic_msgs/DiagnosticArray.h>
+#include <gtest/gtest.h>
+#include <nav_msgs/Odometry.h>
+#include <nodelet/loader.h>
+#include <ros/ros.h>
+#include <sensor_msgs/Image.h>
+#include <sys/resource.h>
+
+#include <condition_variable>
+#include <cstdlib>
+#include <fstream>
+#include <mutex>
+#include <string>
+
+#include "allocation_counter.h"
+
+namespace mivo {
+namespace {
+
+constexpr int kImages = 300;
+constexpr double kMaxProcessor = 10.0;  // per cent of one core
+
+class ZeroCopyTest : public ::testing::Test {
+ protected:
+  void onImage(const sensor_msgs::ImageConstPtr& image) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ++images_;
+    elsewhere_ += isRecentAllocation(image->data.data()) ? 0 : 1;
+    changed_.notify_all();
+  }
+  void onOdometry(const nav_msgs::OdometryConstPtr& /*odometry*/) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ++poses_;
+    changed_.notify_all();
+  }
+  void onDiagnostics(const diagnostic_msgs::DiagnosticArrayConstPtr& array) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    for (const auto& status : array->status) {
+      for (const auto& value : status.values) {
+        if (value.key == "processor of the camera thread (%)") {
+          ++reports_;
+          processor_ += std::stod(value.value);
+        }
+      }
+    }
+  }
+
+  template <typename Condition>
+  bool waitFor(Condition condition, int seconds) {
+    std::unique_lock<std::mutex> lock(mutex_);
+    return changed_.wait_for(lock, std::chrono::seconds(seconds), condition);
+  }
+
+  static bool load(nodelet::Loader& loader, const std::string& name, const std::string& type,
+                   const nodelet::M_string& remappings) {
+    return loader.load(name, type, remappings, {});
+  }
+
+  static double processorTime() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    const auto seconds = [](const timeval& time) {
+      return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+    };
+    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+  }
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  int images_ = 0;
+  int elsewhere_ = 0;
+  int poses_ = 0;
+  int reports_ = 0;
+  double processor_ = 0.0;
+};
+
+TEST_F(ZeroCopyTest, ImagesPassByPointerAndTheCameraCostsLittle) {
+  std::ofstream(std::getenv("MIVO_VIRTUAL_XTION"))
+      << "folder " << std::getenv("MIVO_TEST_SEQUENCE") << '\n';
+  ros::NodeHandle node;
+  nodelet::Loader loader(node);
+  ASSERT_TRUE(load(loader, "/camera", "mivo/OpenNI2Nodelet", {}));
+  const auto subscriber = node.subscribe<sensor_msgs::Image>(
+      "/camera/rgb/image_raw", 10,
+      boost::function<void(const sensor_msgs::ImageConstPtr&)>(
+          [this](const sensor_msgs::ImageConstPtr& image) { onImage(image); }));
+  const auto diagnostics = node.subscribe<diagnostic_msgs::DiagnosticArray>(
+      "/diagnostics", 10,
+      boost::function<void(const diagnostic_msgs::DiagnosticArrayConstPtr&)>(
+          [this](const diagnostic_msgs::DiagnosticArrayConstPtr& array) { onDiagnostics(array); }));
+  ASSERT_TRUE(waitFor([&] { return images_ >= 30; }, 30));
+
+  // The camera with one subscriber, for ten seconds.
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    images_ = reports_ = 0;
+    processor_ = 0.0;
+  }
+  const double begin = processorTime();
+  const ros::WallTime begin_wall = ros::WallTime::now();
+  ASSERT_TRUE(waitFor([&] { return images_ >= kImages; }, 30));
+  const double whole =
+      100.0 * (processorTime() - begin) / (ros::WallTime::now() - begin_wall).toSec();
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ASSERT_GT(reports_, 5);
+    std::cout << "== processor: " << processor_ / reports_ << " % in the camera's thread, " << whole
+              << " % in the whole process with the virtual camera and this subscriber\n";
+    EXPECT_LT(processor_ / reports_, kMaxProcessor);
+  }
+
+  // The odometry comes in.
+  const nodelet::M_string remappings{
+      {ros::names::resolve("rgb/image"), "/camera/rgb/image_raw"},
+      {ros::names::resolve("depth/image"), "/camera/depth_registered/image_raw"},
+      {ros::names::resolve("rgb/camera_info"), "/camera/rgb/camera_info"}};
+  ros::param::set("/odometry/base_frame", "camera_link");
+  ASSERT_TRUE(load(loader, "/odometry", "mivo/OdometryNodelet", remappings));
+  const auto poses = node.subscribe<nav_msgs::Odometry>(
+      "/odom", 10,
+      boost::function<void(const nav_msgs::OdometryConstPtr&)>(
+          [this](const nav_msgs::OdometryConstPtr& odometry) { onOdometry(odometry); }));
+  ASSERT_TRUE(waitFor([&] { return poses_ >= 10; }, 30));
+  std::size_t allocated = 0;
+  int seen = 0;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    allocated = countAllocations();
+    seen = images_;
+    poses_ = 0;
+  }
+  ASSERT_TRUE(waitFor([&] { return images_ - seen >= kImages && poses_ > kImages / 2; }, 60));
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const auto new_allocations = static_cast<int>(countAllocations() - allocated);
+  std::cout << "== " << images_ - seen << " images, " << new_allocations
+            << " allocations of their size, " << poses_ << " poses\n";
+  EXPECT_NEAR(new_allocations, images_ - seen, 5) << "an image under way at either end";
+  EXPECT_EQ(elsewhere_, 0);
+}
+
+}  // namespace
+}  // namespace mivo
+
+int main(int argc, char** argv) {
+  ::testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "camera_zero_copy_test");
+  ros::AsyncSpinner spinner(1);
+  spinner.start();
+  return RUN_ALL_TESTS();
+}
