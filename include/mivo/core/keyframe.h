@@ -25,8 +25,9 @@ struct KeyframeLevel {
 /// coarsest level uses all pixels with depth, the others the salient ones (section III-C).
 class Keyframe {
  public:
-  /// Fills the keyframe from a frame; buffers are reused. @param twist_per_period motion of the scene
-  /// in the camera's axes per frame period. @param readout share of it in which rows were read.
+  /// Fills the keyframe from a frame; buffers are reused. @param twist_per_period motion of the
+  /// scene in the camera's axes per frame period. @param readout share of it in which rows were
+  /// read.
   void build(const FramePyramid& frame, const Camera& camera, const Vector6& twist_per_period,
              double readout, const Parameters& parameters);
 
