@@ -8,7 +8,6 @@ foreach(variable PYTHON_EXECUTABLE Python3_EXECUTABLE)
   endif()
 endforeach()
 
-find_package(Boost REQUIRED COMPONENTS system thread)
 find_package(catkin REQUIRED COMPONENTS
   camera_info_manager
   cv_bridge
