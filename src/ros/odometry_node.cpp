@@ -17,6 +17,7 @@ namespace {
 constexpr double kTimeJump = 1.0;          // s: time was set back, the frame is not merely late
 constexpr int kStaleFramesOfAJump = 10;    // as many late frames in a row are a jump too
 constexpr double kClockDifference = 10.0;  // s between stamps and clock that no latency explains
+constexpr int kFramesOffClock = 10;        // in a row, before it is said
 constexpr double kPlausibleDepth[] = {0.1, 30.0};  // m, of the median
 constexpr double kLogPeriod = 5.0;                 // s between messages of the same kind
 constexpr std::size_t kLongBacklog = 300;          // frames
@@ -216,16 +217,22 @@ void OdometryNode::publishOdometry(const ros::Time& stamp, const Eigen::Isometry
   publisher_.publish(odometry, stamp, T_guess_base);
 }
 
+void OdometryNode::warnAboutClock(double age) {
+  // A single frame may come before the clock that goes with it.
+  const bool is_off = std::abs(age) > kClockDifference && !ros::Time::now().isZero();
+  frames_off_clock_ = is_off ? frames_off_clock_ + 1 : 0;
+  if (frames_off_clock_ < kFramesOffClock || has_warned_of_clock_) return;
+  has_warned_of_clock_ = true;
+  ROS_WARN(
+      "the images are %.0f s %s than the clock; for a bag set /use_sim_time to true before the "
+      "nodes "
+      "start and play it with --clock",
+      std::abs(age), age > 0.0 ? "older" : "newer");
+}
+
 void OdometryNode::warnAboutMessages(const ImagePair& pair, const MessageFrame& input) {
   const std_msgs::Header& colour = pair.colour->header;
-  const double age = (ros::Time::now() - colour.stamp).toSec();
-  if (std::abs(age) > kClockDifference && !has_warned_of_clock_ && !ros::Time::now().isZero()) {
-    has_warned_of_clock_ = true;
-    ROS_WARN(
-        "the images are %.0f s %s than the clock; for a bag set /use_sim_time to true before the "
-        "nodes start and play it with --clock",
-        std::abs(age), age > 0.0 ? "older" : "newer");
-  }
+  warnAboutClock((ros::Time::now() - colour.stamp).toSec());
   const std::string& depth_frame = pair.depth->header.frame_id;
   if (depth_frame != colour.frame_id && !has_warned_of_frames_) {
     has_warned_of_frames_ = true;

@@ -40,6 +40,7 @@ class OdometryNode : private OdometryActions {
   void work();
   void process(const ImagePair& pair);
   bool acceptStamp(const ros::Time& stamp);
+  void warnAboutClock(double age);
   void warnAboutMessages(const ImagePair& pair, const MessageFrame& input);
   std::optional<Eigen::Isometry3d> guessedStart(const ros::Time& stamp,
                                                 const Eigen::Isometry3d& T_base_camera);
@@ -81,6 +82,7 @@ class OdometryNode : private OdometryActions {
   int stale_frames_ = 0;  // in a row
   TrackingState last_state_ = TrackingState::kInitialising;
 
+  int frames_off_clock_ = 0;  // in a row
   bool has_warned_of_clock_ = false;
   bool has_warned_of_frames_ = false;
   bool has_warned_of_depth_ = false;

@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Services, parameters, the help of another odometry, loading and unloading.
+#include <dynamic_reconfigure/Reconfigure.h>
+#include <gtest/gtest.h>
+#include <mivo/SaveTrajectory.h>
+#include <mivo/SetPose.h>
+#include <std_srvs/SetBool.h>
+#include <std_srvs/Trigger.h>
+#include <tf2_ros/transform_broadcaster.h>
+
+#include "mivo/core/parameters.h"
+#include "mivo/core/se3.h"
+#include "mivo/io/trajectory_io.h"
+#include "mivo/ros/node_parameters.h"
+#include "mivo/ros/parameter_server.h"
+#include "mivo/ros/pose_conversion.h"
+#include "programs/plane_sequence.h"
+#include "ros/expect_error.h"
+#include "ros/node_fixture.h"
+#include "support/temporary_folder.h"
+
+namespace mivo {
+namespace {
+
+constexpr double kTolerance = 0.006;  // as in odometry_rostest
+
+TEST_F(NodeTest, ResetStartsAtTheOrigin) {
+  publishCameraOnBase();
+  load();
+  for (int i = 0; i < 5; ++i) track(i);
+  std_srvs::Trigger reset;
+  ASSERT_TRUE(ros::service::call(privateName("reset"), reset));
+  EXPECT_TRUE(reset.response.success);
+  track(5);
+  ASSERT_TRUE(waitFor([&] { return hasOdometry(5); }));
+  EXPECT_LT(poseError(5, Eigen::Isometry3d::Identity()), 1e-9);
+  track(6);
+  ASSERT_TRUE(waitFor([&] { return hasOdometry(6); }));
+  EXPECT_LT(poseError(6, truth(5).inverse() * truth(6)), kTolerance);
+  EXPECT_EQ(2U, statuses_[stampOf(6)].frames);
+}
+
+TEST_F(NodeTest, SetPoseMovesTheOdometryFrame) {
+  publishCameraOnBase();
+  load();
+  for (int i = 0; i < 5; ++i) track(i);
+  Eigen::Isometry3d wanted = Eigen::Isometry3d::Identity();
+  wanted.translation() << 3.0, -2.0, 1.0;
+  wanted.linear() = expSo3({0.0, 0.0, 1.0});
+  SetPose call;
+  call.request.pose = toPose(wanted);
+  ASSERT_TRUE(ros::service::call(privateName("set_pose"), call));
+  ASSERT_TRUE(call.response.success) << call.response.message;
+  track(5);
+  ASSERT_TRUE(waitFor([&] { return hasOdometry(5); }));
+  EXPECT_LT(poseError(5, wanted * truth(4).inverse() * truth(5)), kTolerance);
+  EXPECT_EQ(statuses_[stampOf(4)].segment, statuses_[stampOf(5)].segment);
+  EXPECT_EQ(statuses_[stampOf(4)].keyframes, statuses_[stampOf(5)].keyframes);
+
+  call.request.pose = geometry_msgs::Pose();  // a quaternion of zeros
+  ASSERT_TRUE(ros::service::call(privateName("set_pose"), call));
+  EXPECT_FALSE(call.response.success);
+  EXPECT_NE(std::string::npos, call.response.message.find("quaternion"));
+}
+
+TEST_F(NodeTest, SetPoseIsRefusedBeforeThereIsAPose) {
+  publishCameraOnBase();
+  load();  // reset at its end
+  SetPose call;
+  call.request.pose.orientation.w = 1.0;
+  ASSERT_TRUE(ros::service::call(privateName("set_pose"), call));
+  EXPECT_FALSE(call.response.success);
+}
+
+TEST_F(NodeTest, PauseStopsTracking) {
+  publishCameraOnBase();
+  load();
+  track(0);
+  std_srvs::SetBool pause;
+  pause.request.data = 1;
+  ASSERT_TRUE(ros::service::call(privateName("pause"), pause));
+  publish(1);
+  diagnosis("tracking", [](const std::string& text) { return text == "paused"; });
+  EXPECT_FALSE(hasStatus(1));
+  pause.request.data = 0;
+  ASSERT_TRUE(ros::service::call(privateName("pause"), pause));
+  track(2);
+  EXPECT_EQ(2U, statuses_[stampOf(2)].frames);
+}
+
+TEST_F(NodeTest, TrajectoryIsSavedAndWrittenAsItGrows) {
+  const TemporaryFolder folder;
+  publishCameraOnBase();
+  setParameter("trajectory_folder", folder.path());
+  setParameter("trajectory_file", "live.txt");
+  load();
+  for (int i = 0; i < 5; ++i) track(i);
+  SaveTrajectory call;
+  call.request.path = "saved.txt";
+  ASSERT_TRUE(ros::service::call(privateName("save_trajectory"), call));
+  ASSERT_TRUE(call.response.success) << call.response.message;
+  EXPECT_EQ(5U, call.response.poses);
+  EXPECT_EQ(folder / "saved.txt", call.response.message);
+  const Trajectory saved = readTrajectory(folder / "saved.txt");
+  ASSERT_EQ(5U, saved.size());
+  // Poses of the camera; its first one is the origin.
+  EXPECT_LT(localCoordinates(saved[0].pose).norm(), 1e-9);
+  EXPECT_LT(localCoordinates(planePose(4).inverse() * saved[4].pose).norm(), kTolerance);
+  // The reset at the end of load() began the second file.
+  EXPECT_EQ(contentOf(folder / "saved.txt"), contentOf(folder / "live_2.txt"));
+
+  ASSERT_TRUE(ros::service::call(privateName("save_trajectory"), call));
+  EXPECT_FALSE(call.response.success);
+  call.request.force = 1;
+  ASSERT_TRUE(ros::service::call(privateName("save_trajectory"), call));
+  EXPECT_TRUE(call.response.success);
+}
+
+TEST_F(NodeTest, LiveChangesAreTakenWholeOrNotAtAll) {
+  publishCameraOnBase();
+  setParameter("levels", 4);
+  load();
+  track(0);
+  dynamic_reconfigure::Reconfigure call;
+  dynamic_reconfigure::IntParameter number;
+  number.name = "mi_bins";
+  number.value = 16;
+  call.request.config.ints = {number};
+  ASSERT_TRUE(ros::service::call(privateName("set_parameters"), call));
+  EXPECT_EQ(16, ros::param::param(privateName("mi_bins"), 0));
+  EXPECT_EQ(4, ros::param::param(privateName("levels"), 0));
+  track(1);
+
+  number.value = 12;
+  dynamic_reconfigure::IntParameter wrong;
+  wrong.name = "levels";
+  wrong.value = 99;
+  call.request.config.ints = {number, wrong};
+  EXPECT_FALSE(ros::service::call(privateName("set_parameters"), call));
+  EXPECT_EQ(16, ros::param::param(privateName("mi_bins"), 0));
+  wrong.name = "no_such_name";
+  call.request.config.ints = {number, wrong};
+  EXPECT_FALSE(ros::service::call(privateName("set_parameters"), call));
+  EXPECT_EQ(16, ros::param::param(privateName("mi_bins"), 0));
+  track(2);
+  EXPECT_EQ(TrackingStatus::TRACKING, statuses_[stampOf(2)].state);
+}
+
+TEST_F(NodeTest, AllParametersInEffectCanBeReadBack) {
+  setParameter("max_depth", 8);  // a whole number for one with decimals
+  setParameter("method", "mi");
+  load();
+  EXPECT_EQ(8.0, ros::param::param(privateName("max_depth"), 0.0));
+  const Parameters read = readParameters(ros::NodeHandle(ns_ + "/odometry"));
+  EXPECT_EQ(Method::kMi, read.method);
+  for (const ParameterInfo& info : parameterTable()) {
+    EXPECT_TRUE(ros::param::has(privateName(info.name))) << info.name;
+  }
+}
+
+TEST_F(NodeTest, WrongParametersLeaveTheNodeIdleAndTheManagerAlive) {
+  setParameter("levels", 99);
+  loadOnly();
+  const auto status = diagnosis("tracking", [](const std::string& text) {
+    return text.find("idle") == 0 && text.find("levels") != std::string::npos;
+  });
+  EXPECT_EQ(diagnostic_msgs::DiagnosticStatus::ERROR, status.level);
+}
+
+TEST_F(NodeTest, ParametersOfTheNodeAreChecked) {
+  const ros::NodeHandle handle(ns_ + "/odometry");
+  setParameter("queue_size", "many");
+  EXPECT_ERROR(readNodeParameters(handle), "queue_size' is a string, expected a whole number");
+  setParameter("queue_size", 0);
+  EXPECT_ERROR(readNodeParameters(handle), "queue_size': 0 is not from 1");
+  setParameter("queue_size", 10);
+  setParameter("base_frame", "/odom");
+  setParameter("odom_frame", "odom");
+  EXPECT_ERROR(readNodeParameters(handle), "must differ");
+  setParameter("base_frame", "base_link");
+  setParameter("levels", "5");
+  EXPECT_ERROR(readParameters(handle), "levels' is a string, expected a whole number");
+  setParameter("levels", 5);
+  setParameter("max_iteration", 5);
+  setParameter("sub/group", 5);
+  const auto unknown = findUnknownParameters(handle, nodeParameterNames());
+  ASSERT_EQ(1U, unknown.size());
+  EXPECT_NE(std::string::npos, unknown[0].find("max_iteration'")) << unknown[0];
+  EXPECT_NE(std::string::npos, unknown[0].find("'max_iterations'")) << unknown[0];
+}
+
+TEST_F(NodeTest, AnotherOdometryHelpsAndStaysTheParentOfTheBase) {
+  publishCameraOnBase();
+  const std::string wheels = frame("wheels");
+  setParameter("guess_frame_id", wheels);
+  tf2_ros::TransformBroadcaster broadcaster;
+  Eigen::Isometry3d T_wheels_start = Eigen::Isometry3d::Identity();
+  T_wheels_start.translation() << 5.0, 6.0, 0.0;
+  spoil_ = [&] {
+    geometry_msgs::TransformStamped transform;
+    transform.header.stamp = next_colour_.header.stamp;
+    transform.header.frame_id = wheels;
+    transform.child_frame_id = frame("base_link");
+    transform.transform = toTransform(T_wheels_start);
+    broadcaster.sendTransform(transform);
+  };
+  load();
+  for (int i = 0; i < 4; ++i) track(i);
+  ASSERT_TRUE(waitFor([&] {
+    return hasOdometry(3) && tf_.canTransform(frame("odom"), frame("base_link"), stampOf(3));
+  }));
+  std::string parent;
+  ASSERT_TRUE(tf_._getParent(frame("base_link"), ros::Time(0), parent));
+  EXPECT_EQ(wheels, parent);
+  const Eigen::Isometry3d T =
+      toIsometry(tf_.lookupTransform(frame("odom"), frame("base_link"), stampOf(3)).transform);
+  EXPECT_LT(poseError(3, T), 1e-9);
+  EXPECT_LT(poseError(3, truth(3)), kTolerance);
+}
+
+TEST_F(NodeTest, UnloadingWhileFramesWaitEndsCleanly) {
+  publishCameraOnBase();
+  load();
+  for (int i = 0; i < 40; ++i) publish(i);
+  EXPECT_TRUE(unload());
+  EXPECT_TRUE(waitFor([this] { return colour_.getNumSubscribers() == 0; }));
+  load();  // the manager is alive, and the name is free again
+  EXPECT_TRUE(unload());
+}
+
+}  // namespace
+}  // namespace mivo
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "odometry_control_rostest");
+  return RUN_ALL_TESTS();
+}
