@@ -4,12 +4,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
+
+#include "mivo/core/image_view.h"
+#include "mivo/core/recycled.h"
 
 namespace mivo {
 namespace {
 
-constexpr int kWindow = 5;              // pixels of the map: 20 of the level
 constexpr double kContrastShare = 0.1;  // constant as a share of the frame's own contrast
 constexpr double kMinConstant = 0.2;    // grey levels
 // A Gaussian reduction leaves about this much of white noise from level to level.
@@ -19,42 +20,51 @@ constexpr float kMiddle = 128.0F;
 constexpr float kGreyLevels = 55.0F;
 constexpr float kWhite = 255.0F;
 
-float bilinearAt(const cv::Mat& map, float u, float v) {
-  const float cu = std::min(u, static_cast<float>(map.cols - 1));
-  const float cv = std::min(v, static_cast<float>(map.rows - 1));
-  const int x = std::min(static_cast<int>(cu), std::max(0, map.cols - 2));
-  const int y = std::min(static_cast<int>(cv), std::max(0, map.rows - 2));
-  const int x1 = std::min(x + 1, map.cols - 1);
-  const int y1 = std::min(y + 1, map.rows - 1);
-  const float du = cu - static_cast<float>(x);
-  const float dv = cv - static_cast<float>(y);
-  const auto* upper = map.ptr<float>(y);
-  const auto* lower = map.ptr<float>(y1);
-  const float top = upper[x] + du * (upper[x1] - upper[x]);
-  const float low = lower[x] + du * (lower[x1] - lower[x]);
+/// One of the two values of a map, interpolated at a pixel of the level.
+float interpolated(const ContrastMap& map, int x, int y, int channel) {
+  const auto* upper = map.pairs.ptr<cv::Vec2f>(y / 4) + x / 4;
+  const auto* lower = map.pairs.ptr<cv::Vec2f>(y / 4 + 1) + x / 4;
+  const float du = 0.25F * static_cast<float>(x % 4);
+  const float dv = 0.25F * static_cast<float>(y % 4);
+  const float top = upper[0][channel] + du * (upper[1][channel] - upper[0][channel]);
+  const float low = lower[0][channel] + du * (lower[1][channel] - lower[0][channel]);
   return top + dv * (low - top);
 }
 
-/// Noise from second differences along every fourth row: texture has few of them, noise everywhere.
+/// Repeats the last column and the last row.
+void repeatEnds(cv::Mat& pairs) {
+  const int columns = pairs.cols - 1;
+  const int rows = pairs.rows - 1;
+  for (int y = 0; y < rows; ++y) {
+    auto* row = pairs.ptr<cv::Vec2f>(y);
+    row[columns] = row[columns - 1];
+  }
+  std::copy(pairs.ptr<cv::Vec2f>(rows - 1), pairs.ptr<cv::Vec2f>(rows - 1) + columns + 1,
+            pairs.ptr<cv::Vec2f>(rows));
+}
+
+/// Noise of an 8-bit image from second differences along some rows: texture has few of them, noise
+/// everywhere. Interpolated between whole numbers.
 double estimateNoise(const cv::Mat& image) {
-  constexpr int kRowStep = 4;
-  constexpr int kSteps = 1024;  // of a quarter grey level
-  std::array<int, kSteps> counts{};
+  constexpr int kRowStep = 16;
+  constexpr int kLargest = 2 * 255;
+  std::array<int, kLargest + 1> counts{};
   int total = 0;
   for (int y = 0; y < image.rows; y += kRowStep) {
-    const auto* row = image.ptr<float>(y);
+    const auto* row = image.ptr<unsigned char>(y);
     for (int x = 1; x + 1 < image.cols; ++x) {
-      const float difference = std::abs(2.0F * row[x] - row[x - 1] - row[x + 1]);
-      ++counts[static_cast<std::size_t>(std::min(kSteps - 1, static_cast<int>(difference * 4.0F)))];
-      ++total;
+      ++counts[static_cast<std::size_t>(std::abs(2 * row[x] - row[x - 1] - row[x + 1]))];
     }
+    total += std::max(0, image.cols - 2);
   }
-  int index = 0;
-  for (int below = counts[0]; 2 * below < total && index + 1 < kSteps;) {
-    below += counts[static_cast<std::size_t>(++index)];
-  }
-  const double median = 0.25 * (index + 0.5);
-  return 1.4826 * median / std::sqrt(6.0);
+  std::size_t median = 0;
+  int below = 0;
+  while (median < kLargest && 2 * (below + counts[median]) < total) below += counts[median++];
+  // The values of one count are spread evenly over the unit around it; zero has half a unit.
+  const double share =
+      counts[median] > 0 ? (0.5 * total - below) / static_cast<double>(counts[median]) : 0.0;
+  const double exact = median == 0 ? 0.5 * share : static_cast<double>(median) - 0.5 + share;
+  return 1.4826 * exact / std::sqrt(6.0);
 }
 
 }  // namespace
@@ -66,50 +76,38 @@ void ContrastMaps::build(const ImagePyramid& pyramid, int num_levels) {
   for (int l = 0; l < num_levels; ++l) {
     ContrastMap& map = maps_[static_cast<std::size_t>(l)];
     const cv::Mat& reduced = pyramid.level(l + 2);
-    const cv::Size window(kWindow, kWindow);
-    cv::boxFilter(reduced, map.mean, CV_32F, window, cv::Point(-1, -1), true,
-                  cv::BORDER_REFLECT_101);
-    cv::sqrBoxFilter(reduced, square_, CV_32F, window, cv::Point(-1, -1), true,
-                     cv::BORDER_REFLECT_101);
-    map.deviation.create(reduced.size(), CV_32FC1);
-    double sum = 0.0;
-    for (int y = 0; y < reduced.rows; ++y) {
-      const auto* mean = map.mean.ptr<float>(y);
-      const auto* square = square_.ptr<float>(y);
-      auto* deviation = map.deviation.ptr<float>(y);
-      for (int x = 0; x < reduced.cols; ++x) {
-        const float variance = std::max(0.0F, square[x] - mean[x] * mean[x]);
-        sum += static_cast<double>(variance);
-        deviation[x] = std::sqrt(variance);
-      }
-    }
-    const double contrast = std::sqrt(sum / static_cast<double>(reduced.total()));
+    map.pairs.create(reduced.rows + 1, reduced.cols + 1, CV_32FC2);
+    scratch_.resize(kernels::imageScratch(reduced.cols));
+    const double variances = kernels::active().contrastMap(
+        view(reduced), map.pairs.ptr<float>(), static_cast<std::ptrdiff_t>(map.pairs.step1()),
+        scratch_.data());
+    repeatEnds(map.pairs);
+    const double contrast = std::sqrt(variances / static_cast<double>(reduced.total()));
     if (l <= 1) contrast_ = contrast;
     map.constant = static_cast<float>(std::max({kContrastShare * contrast, noise, kMinConstant}));
     noise *= kNoiseReduction;
   }
 }
 
+kernels::ContrastView view(const ContrastMap& map) {
+  return {map.pairs.ptr<float>(), static_cast<std::ptrdiff_t>(map.pairs.step1()), map.constant};
+}
+
 float localContrast(const ContrastMap& map, int x, int y) {
-  return bilinearAt(map.deviation, 0.25F * static_cast<float>(x), 0.25F * static_cast<float>(y)) +
-         map.constant;
+  return interpolated(map, x, y, 1) + map.constant;
 }
 
 float normalisedIntensity(const cv::Mat& image, const ContrastMap& map, int x, int y) {
-  const float mean =
-      bilinearAt(map.mean, 0.25F * static_cast<float>(x), 0.25F * static_cast<float>(y));
-  return (image.at<float>(y, x) - mean) / localContrast(map, x, y);
+  return (intensityAt(image, x, y) - interpolated(map, x, y, 0)) / localContrast(map, x, y);
 }
 
 void normaliseImage(const cv::Mat& image, const ContrastMap& map, cv::Mat& normalised) {
   normalised.create(image.size(), CV_32FC1);
-  for (int y = 0; y < image.rows; ++y) {
-    auto* row = normalised.ptr<float>(y);
-    for (int x = 0; x < image.cols; ++x) {
-      const float grey = kMiddle + kGreyLevels * normalisedIntensity(image, map, x, y);
-      row[x] = std::min(std::max(grey, 0.0F), kWhite);
-    }
-  }
+  Recycled<std::vector<float>> scratch;
+  scratch->resize(kernels::imageScratch(image.cols));
+  kernels::active().normaliseImage(
+      view(image), view(map), {map.constant, kMiddle, kGreyLevels, kWhite}, normalised.ptr<float>(),
+      static_cast<std::ptrdiff_t>(normalised.step1()), scratch->data());
 }
 
 }  // namespace mivo

@@ -49,4 +49,13 @@ float FramePyramid::depthAt(int x, int y) const {
   return z > 0.0F && z < 1e4F ? z : 0.0F;  // NaN is no reading either
 }
 
+kernels::DepthView FramePyramid::depthView() const {
+  const auto stride = static_cast<std::ptrdiff_t>(frame_.depth.step1());
+  if (frame_.depth.type() == CV_16UC1) {
+    return {nullptr, frame_.depth.ptr<std::uint16_t>(), stride,
+            static_cast<float>(frame_.depth_unit)};
+  }
+  return {frame_.depth.ptr<float>(), nullptr, stride, 1.0F};
+}
+
 }  // namespace mivo

@@ -2,7 +2,9 @@
 #include "mivo/core/image_pyramid.h"
 
 #include <algorithm>
-#include <opencv2/imgproc.hpp>
+
+#include "mivo/core/image_view.h"
+#include "mivo/core/kernels/kernels.h"
 
 namespace mivo {
 namespace {
@@ -25,8 +27,15 @@ int usableLevels(int width, int height, int wanted) {
 void ImagePyramid::build(const cv::Mat& image, int num_levels) {
   num_levels_ = num_levels;
   levels_.resize(static_cast<std::size_t>(num_levels));
-  image.convertTo(levels_[0], CV_32F);
-  for (std::size_t l = 1; l < levels_.size(); ++l) cv::pyrDown(levels_[l - 1], levels_[l]);
+  image.copyTo(levels_[0]);
+  scratch_.resize(kernels::imageScratch(image.cols));
+  for (std::size_t l = 1; l < levels_.size(); ++l) {
+    const cv::Mat& fine = levels_[l - 1];
+    cv::Mat& coarse = levels_[l];
+    coarse.create((fine.rows + 1) / 2, (fine.cols + 1) / 2, CV_32FC1);
+    kernels::active().reduce(view(fine), coarse.ptr<float>(),
+                             static_cast<std::ptrdiff_t>(coarse.step1()), scratch_.data());
+  }
 }
 
 }  // namespace mivo

@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "mivo/core/image_view.h"
+
 namespace mivo {
 namespace {
 
@@ -18,9 +20,8 @@ constexpr float kBelowTop = 1e-3F;
 IntensityRange intensityRange(const cv::Mat& image, double quantile) {
   std::array<int, kGreyLevels> counts{};
   for (int y = 0; y < image.rows; ++y) {
-    const auto* row = image.ptr<float>(y);
     for (int x = 0; x < image.cols; ++x) {
-      const int level = static_cast<int>(row[x] + 0.5F);
+      const int level = static_cast<int>(intensityAt(image, x, y) + 0.5F);
       ++counts[static_cast<std::size_t>(std::min(std::max(level, 0), kGreyLevels - 1))];
     }
   }
@@ -50,11 +51,16 @@ BinPosition Binning::operator()(float intensity) const {
   return {bin, position - static_cast<float>(bin), position != wanted};
 }
 
-JointHistogram::JointHistogram(int num_bins)
-    : side_(num_bins + 2),
-      joint_(static_cast<std::size_t>(side_ * side_)),
-      reference_(static_cast<std::size_t>(side_)),
-      live_(static_cast<std::size_t>(side_)) {}
+void JointHistogram::resize(int num_bins) {
+  side_ = num_bins + 2;
+  const auto side = static_cast<std::size_t>(side_);
+  joint_.resize(side * side);
+  reference_.resize(side);
+  live_.resize(side);
+  logarithm_.resize(side * side);
+  log_ratio_.resize(side * side);
+  scratch_.resize(kernels::histogramScratch(side_));
+}
 
 void JointHistogram::clear() {
   std::fill(joint_.begin(), joint_.end(), 0.0);
@@ -73,9 +79,16 @@ void JointHistogram::add(const JointHistogram& other) {
   for (std::size_t i = 0; i < joint_.size(); ++i) joint_[i] += other.joint_[i];
 }
 
+void JointHistogram::add(const kernels::BinsView& reference, const kernels::BinsView& live,
+                         const float* visible, std::size_t n) {
+  kernels::active().jointHistogram(reference, live, visible, n, side_, scratch_.data(),
+                                   joint_.data());
+}
+
 void JointHistogram::normalise(std::size_t num_pairs) {
   std::fill(reference_.begin(), reference_.end(), 0.0);
   std::fill(live_.begin(), live_.end(), 0.0);
+  mutual_information_ = 0.0;
   if (num_pairs == 0) return;
   const double scale = 1.0 / static_cast<double>(num_pairs);
   for (int r = 0; r < side_; ++r) {
@@ -86,17 +99,29 @@ void JointHistogram::normalise(std::size_t num_pairs) {
       live_[static_cast<std::size_t>(l)] += p;
     }
   }
+  takeLogarithms();
 }
 
-double JointHistogram::mutualInformation() const {
+/// sum p_rl log(p_rl / (p_r p_l)), and the ratios.
+void JointHistogram::takeLogarithms() {
+  const auto side = static_cast<std::size_t>(side_);
+  const auto take = kernels::active().logarithms;
+  take(live_.data(), side, logarithm_.data());
   double sum = 0.0;
-  for (int r = 0; r < side_; ++r) {
-    for (int l = 0; l < side_; ++l) {
-      const double p = joint(r, l);
-      if (p > 0.0) sum += p * std::log(p / (referenceMarginal(r) * liveMarginal(l)));
+  for (std::size_t l = 0; l < side; ++l) sum -= live_[l] * logarithm_[l];
+  // Those of p_r go into the ratios first: they are needed row by row.
+  take(reference_.data(), side, logarithm_.data());
+  for (std::size_t r = 0; r < side; ++r) log_ratio_[r * side] = static_cast<float>(logarithm_[r]);
+  for (std::size_t r = 0; r < side; ++r) sum -= reference_[r] * logarithm_[r];
+  take(joint_.data(), side * side, logarithm_.data());
+  for (std::size_t r = 0; r < side; ++r) {
+    const auto of_reference = static_cast<double>(log_ratio_[r * side]);
+    for (std::size_t i = r * side; i < (r + 1) * side; ++i) {
+      sum += joint_[i] * logarithm_[i];
+      log_ratio_[i] = joint_[i] > 0.0 ? static_cast<float>(logarithm_[i] - of_reference) : 0.0F;
     }
   }
-  return std::max(0.0, sum);
+  mutual_information_ = std::max(0.0, sum);
 }
 
 }  // namespace mivo

@@ -45,7 +45,9 @@ void Keyframe::build(const FramePyramid& frame, const Camera& camera,
     makeReferencePoints(image, depth, camera.atLevel(l), rows,
                         selectPoints(frame.grey(l), depth, is_coarsest, parameters), uses_mi,
                         level.points);
-    if (uses_mi) level.mi = makeMiReference(level.points, frame.informationRange(l), parameters);
+    if (uses_mi) {
+      makeMiReference(level.points, frame.informationRange(l), parameters, level.mi);
+    }
   }
   geometric_points_ = GeometricPoints{};
   if (parameters.geometric_term) {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <cmath>
-
 #include "mivo/core/mi_term.h"
 #include "mivo/core/parallel_chunks.h"
+#include "mivo/core/recycled.h"
 
 // Derivatives of MI = sum p_rl log(p_rl / (p_r p_l)) with respect to the increment d that warps the
 // keyframe. Only the reference axis of the windows depends on d, p_l does not; with the position s
@@ -20,108 +19,98 @@
 namespace mivo {
 namespace {
 
-struct Sums {
-  explicit Sums(std::size_t cells) : joint_derivative(cells, Vector6::Zero()) {}
-  std::vector<Vector6> joint_derivative;  // n dp_rl
-  Vector6 gradient = Vector6::Zero();
-  Matrix6 curvature = Matrix6::Zero();  // sum of h J J^T + g d2s, upper triangle
+/// What one chunk of points contributes.
+struct Part {
+  std::vector<float> rows;  // n dp_rl / s, kRowFloats for each pair of bins
+  kernels::InformationSums sums;
 };
 
-std::vector<double> logRatios(const JointHistogram& histogram) {
-  const int side = histogram.side();
-  std::vector<double> result(static_cast<std::size_t>(side * side));
-  for (int r = 0; r < side; ++r) {
-    for (int l = 0; l < side; ++l) {
-      const double p = histogram.joint(r, l);
-      if (p > 0.0) {
-        result[static_cast<std::size_t>(r * side + l)] =
-            std::log(p / histogram.referenceMarginal(r));
-      }
-    }
-  }
-  return result;
+Eigen::Map<const Eigen::Matrix<float, 6, 1>> rowOf(const Part& part, int index) {
+  return Eigen::Map<const Eigen::Matrix<float, 6, 1>>(part.rows.data() +
+                                                      index * kernels::kRowFloats);
 }
 
-void addPoint(const ReferencePoints& points, const BinPosition& reference, const BinPosition& live,
-              float bins_per_grey_level, const std::vector<double>& log_ratio, int side,
-              std::size_t i, Sums& sums) {
-  const SplineWeights first = splineDerivatives(reference.fraction);
-  const SplineWeights second = splineSecondDerivatives(reference.fraction);
-  const SplineWeights weights = splineWeights(live.fraction);
-  Vector6 J;
-  for (std::size_t k = 0; k < 6; ++k) {
-    J[static_cast<int>(k)] = static_cast<double>(points.jacobian[k][i] * bins_per_grey_level);
+/// Adds the other parts to the first one.
+void addUp(std::vector<Part>& parts, std::size_t count) {
+  Part& sum = parts[0];
+  for (std::size_t p = 1; p < count; ++p) {
+    for (std::size_t i = 0; i < sum.rows.size(); ++i) sum.rows[i] += parts[p].rows[i];
+    for (int k = 0; k < 6; ++k) sum.sums.gradient[k] += parts[p].sums.gradient[k];
+    for (int k = 0; k < kSymmetric6; ++k) sum.sums.curvature[k] += parts[p].sums.curvature[k];
   }
-  double g = 0.0;
-  double h = 0.0;
-  auto cell = static_cast<std::size_t>(reference.bin * side + live.bin);
-  for (std::size_t a = 0; a < kSplineSupport; ++a, cell += static_cast<std::size_t>(side)) {
-    for (std::size_t b = 0; b < kSplineSupport; ++b) {
-      const double ratio = log_ratio[cell + b];
-      const auto product = static_cast<double>(first[a] * weights[b]);
-      g += product * ratio;
-      h += static_cast<double>(second[a] * weights[b]) * ratio;
-      sums.joint_derivative[cell + b] += product * J;
+}
+
+/// weight times v vᵀ, to the upper triangle.
+void addSquare(const Vector6& v, double weight, Matrix6& sum) {
+  for (int column = 0; column < 6; ++column) {
+    const double factor = weight * v[column];
+    for (int row = 0; row <= column; ++row) sum(row, column) += factor * v[row];
+  }
+}
+
+/// sum_rl dp_rl dp_rlᵀ / p_rl - sum_r dp_r dp_rᵀ / p_r, upper triangle.
+Matrix6 windowCurvature(const Part& part, const JointHistogram& histogram, double scale) {
+  Matrix6 result = Matrix6::Zero();
+  for (int r = 0; r < histogram.side(); ++r) {
+    Vector6 marginal = Vector6::Zero();
+    for (int l = 0; l < histogram.side(); ++l) {
+      const double p = histogram.joint(r, l);
+      if (!(p > 0.0)) continue;  // no pair touches these bins
+      const Vector6 dp = scale * rowOf(part, r * histogram.side() + l).cast<double>();
+      addSquare(dp, 1.0 / p, result);
+      marginal += dp;
     }
+    const double p = histogram.referenceMarginal(r);
+    if (p > 0.0) addSquare(marginal, -1.0 / p, result);
   }
-  sums.gradient += g * J;
-  std::size_t entry = 0;
-  const double g_grey = g * static_cast<double>(bins_per_grey_level);
-  for (int row = 0; row < 6; ++row) {
-    const double hJ = h * J[row];
-    for (int column = row; column < 6; ++column) {
-      sums.curvature(row, column) +=
-          hJ * J[column] + g_grey * static_cast<double>(points.second_derivative[entry++][i]);
-    }
-  }
+  return result;
 }
 
 }  // namespace
 
 MiDerivatives mutualInformationDerivatives(const ReferencePoints& points,
                                            const MiReference& reference,
-                                           const std::vector<BinPosition>& live,
+                                           const kernels::BinsView& live,
                                            const std::vector<float>& visible,
                                            std::size_t num_visible, const JointHistogram& histogram,
                                            int threads) {
   MiDerivatives result;
   if (num_visible == 0) return result;
-  const int side = histogram.side();
-  const std::vector<double> log_ratio = logRatios(histogram);
-  std::vector<Sums> parts(numChunks(points.size()), Sums(log_ratio.size()));
-  forEachChunk(points.size(), threads, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) {
-      // A clamped intensity stays where it is under small motions.
-      if (visible[i] == 0.0F || reference.bins[i].is_clamped) continue;
-      addPoint(points, reference.bins[i], live[i], reference.bins_per_grey_level, log_ratio, side,
-               i, parts[chunk]);
+  const std::size_t n = points.size();
+  const auto cells = static_cast<std::size_t>(histogram.side() * histogram.side());
+  const auto scale = static_cast<double>(reference.bins_per_grey_level);
+  // A clamped intensity stays where it is under small motions.
+  Recycled<std::vector<float>> active;
+  active->resize(n);
+  for (std::size_t i = 0; i < n; ++i) (*active)[i] = visible[i] * reference.unclamped[i];
+  Recycled<std::vector<Part>> parts;
+  if (parts->size() < numChunks(n)) parts->resize(numChunks(n));
+  forEachChunk(n, threads, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+    const float* jacobian[6];
+    const float* second_derivative[kSymmetric6];
+    for (std::size_t k = 0; k < 6; ++k) jacobian[k] = points.jacobian[k].data() + begin;
+    for (std::size_t k = 0; k < kSymmetric6; ++k) {
+      second_derivative[k] = points.second_derivative[k].data() + begin;
     }
+    Part& part = (*parts)[chunk];
+    part.rows.assign(cells * kernels::kRowFloats, 0.0F);
+    kernels::active().informationDerivatives(
+        reference.bins(begin), {live.bin + begin, live.fraction + begin}, active->data() + begin,
+        reference.jacobian_rows.data() + begin * kernels::kRowFloats, jacobian, second_derivative,
+        end - begin, histogram.side(), reference.bins_per_grey_level, histogram.logRatios().data(),
+        part.rows.data(), part.sums);
   });
-  Sums sums(log_ratio.size());
-  for (const Sums& part : parts) {
-    for (std::size_t cell = 0; cell < log_ratio.size(); ++cell) {
-      sums.joint_derivative[cell] += part.joint_derivative[cell];
-    }
-    sums.gradient += part.gradient;
-    sums.curvature += part.curvature;
-  }
+  addUp(*parts, numChunks(n));
 
-  const double n_inverse = 1.0 / static_cast<double>(num_visible);
-  Matrix6 windows = Matrix6::Zero();
-  for (int r = 0; r < side; ++r) {
-    Vector6 marginal = Vector6::Zero();
-    for (int l = 0; l < side; ++l) {
-      const Vector6 dp = sums.joint_derivative[static_cast<std::size_t>(r * side + l)] * n_inverse;
-      const double p = histogram.joint(r, l);
-      if (p > 0.0) windows += dp * dp.transpose() / p;
-      marginal += dp;
-    }
-    const double p = histogram.referenceMarginal(r);
-    if (p > 0.0) windows -= marginal * marginal.transpose() / p;
+  const Part& sum = parts->front();
+  const double per_point = scale / static_cast<double>(num_visible);
+  Matrix6 upper = windowCurvature(sum, histogram, per_point);
+  const double* curvature = sum.sums.curvature;
+  for (int row = 0; row < 6; ++row) {
+    result.gradient[row] = per_point * sum.sums.gradient[row];
+    for (int column = row; column < 6; ++column) upper(row, column) += per_point * *curvature++;
   }
-  result.gradient = sums.gradient * n_inverse;
-  const Matrix6 curvature = sums.curvature.selfadjointView<Eigen::Upper>();
-  result.hessian = windows + n_inverse * curvature;
+  result.hessian = upper.selfadjointView<Eigen::Upper>();
   return result;
 }
 

@@ -7,24 +7,60 @@
 
 namespace mivo {
 
+namespace {
+
+void placeInBins(const ReferencePoints& points, const Binning& binning, MiReference& reference) {
+  const std::size_t n = points.size();
+  reference.bin.resize(n);
+  reference.fraction.resize(n);
+  reference.unclamped.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const BinPosition position = binning(points.intensity[i]);
+    reference.bin[i] = position.bin;
+    reference.fraction[i] = position.fraction;
+    reference.unclamped[i] = position.is_clamped ? 0.0F : 1.0F;
+  }
+}
+
+void arrangeJacobians(const ReferencePoints& points, MiReference& reference) {
+  const auto n = points.size();
+  reference.jacobian_rows.assign(n * kernels::kRowFloats, 0.0F);
+  for (std::size_t k = 0; k < 6; ++k) {
+    const float* column = points.jacobian[k].data();
+    float* entry = reference.jacobian_rows.data() + k;
+    for (std::size_t i = 0; i < n; ++i, entry += kernels::kRowFloats) *entry = column[i];
+  }
+}
+
+Matrix6 selfHessian(const ReferencePoints& points, const MiReference& reference,
+                    const Parameters& parameters) {
+  const std::vector<float> all(points.size(), 1.0F);
+  JointHistogram histogram(parameters.mi_bins);
+  histogram.clear();
+  histogram.add(reference.bins(), reference.bins(), all.data(), points.size());
+  histogram.normalise(points.size());
+  const MiDerivatives derivatives = mutualInformationDerivatives(
+      points, reference, reference.bins(), all, points.size(), histogram, parameters.threads);
+  return -static_cast<double>(points.size()) * derivatives.hessian;
+}
+
+}  // namespace
+
+void makeMiReference(const ReferencePoints& points, const IntensityRange& range,
+                     const Parameters& parameters, MiReference& reference) {
+  const Binning binning(range, parameters.mi_bins);
+  reference.bins_per_grey_level = binning.binsPerGreyLevel();
+  placeInBins(points, binning, reference);
+  arrangeJacobians(points, reference);
+  if (parameters.mi_hessian == MiHessian::kReference && points.size() > 0) {
+    reference.self_hessian = selfHessian(points, reference, parameters);
+  }
+}
+
 MiReference makeMiReference(const ReferencePoints& points, const IntensityRange& range,
                             const Parameters& parameters) {
-  const Binning binning(range, parameters.mi_bins);
   MiReference reference;
-  reference.bins_per_grey_level = binning.binsPerGreyLevel();
-  reference.bins.resize(points.size());
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    reference.bins[i] = binning(points.intensity[i]);
-  }
-  if (parameters.mi_hessian == MiHessian::kReference && points.size() > 0) {
-    JointHistogram histogram(parameters.mi_bins);
-    for (const BinPosition& bin : reference.bins) histogram.add(bin, bin);
-    histogram.normalise(points.size());
-    const std::vector<float> all(points.size(), 1.0F);
-    const MiDerivatives derivatives = mutualInformationDerivatives(
-        points, reference, reference.bins, all, points.size(), histogram, parameters.threads);
-    reference.self_hessian = -static_cast<double>(points.size()) * derivatives.hessian;
-  }
+  makeMiReference(points, range, parameters, reference);
   return reference;
 }
 
@@ -36,41 +72,49 @@ MiTerm::MiTerm(const ReferencePoints& points, const MiReference& reference,
       live_image_(live_image),
       warp_(warp),
       hessian_(parameters.mi_hessian),
+      num_bins_(parameters.mi_bins),
       threads_(parameters.threads),
-      live_binning_(live_range, parameters.mi_bins),
-      histogram_(parameters.mi_bins) {}
+      live_binning_(live_range, parameters.mi_bins) {
+  histogram_->resize(parameters.mi_bins);
+}
 
 double MiTerm::evaluate(const Eigen::Isometry3d& T_live_ref) {
-  warp_.sample(points_, T_live_ref, live_image_, nullptr, samples_);
-  if (samples_.num_visible == 0) {
-    mutual_information_ = 0.0;
-    return std::numeric_limits<double>::infinity();
-  }
-  live_bins_.resize(points_.size());
-  parts_.resize(numChunks(points_.size()), histogram_);
+  if (!is_sampled_ || T_live_ref.matrix() != T_live_ref_.matrix()) sample(T_live_ref);
+  if (samples_->num_visible == 0) return std::numeric_limits<double>::infinity();
+  return -static_cast<double>(points_.size()) * mutual_information_;
+}
+
+void MiTerm::sample(const Eigen::Isometry3d& T_live_ref) {
+  T_live_ref_ = T_live_ref;
+  is_sampled_ = true;
+  warp_.sample(points_, T_live_ref, live_image_, nullptr, *samples_);
+  live_bin_->resize(points_.size());
+  live_fraction_->resize(points_.size());
+  kernels::active().binPositions(samples_->value.data(), points_.size(), live_binning_.low(),
+                                 live_binning_.binsPerGreyLevel(), live_binning_.top(),
+                                 live_bin_->data(), live_fraction_->data());
+  const std::size_t chunks = numChunks(points_.size());
+  if (parts_->size() < chunks) parts_->resize(chunks);
   forEachChunk(points_.size(), threads_,
                [&](std::size_t chunk, std::size_t begin, std::size_t end) {
-                 JointHistogram& part = parts_[chunk];
+                 JointHistogram& part = (*parts_)[chunk];
+                 part.resize(num_bins_);
                  part.clear();
-                 for (std::size_t i = begin; i < end; ++i) {
-                   if (samples_.visible[i] == 0.0F) continue;
-                   live_bins_[i] = live_binning_(samples_.value[i]);
-                   part.add(reference_.bins[i], live_bins_[i]);
-                 }
+                 part.add(reference_.bins(begin), liveBins(begin), samples_->visible.data() + begin,
+                          end - begin);
                });
-  histogram_.clear();
-  for (const JointHistogram& part : parts_) histogram_.add(part);
-  histogram_.normalise(samples_.num_visible);
-  mutual_information_ = histogram_.mutualInformation();
-  return -static_cast<double>(points_.size()) * mutual_information_;
+  histogram_->clear();
+  for (std::size_t chunk = 0; chunk < chunks; ++chunk) histogram_->add((*parts_)[chunk]);
+  histogram_->normalise(samples_->num_visible);
+  mutual_information_ = histogram_->mutualInformation();
 }
 
 QuadraticModel MiTerm::linearise(int) {
   QuadraticModel model;
   const auto n = static_cast<double>(points_.size());
   const MiDerivatives derivatives =
-      mutualInformationDerivatives(points_, reference_, live_bins_, samples_.visible,
-                                   samples_.num_visible, histogram_, threads_);
+      mutualInformationDerivatives(points_, reference_, liveBins(), samples_->visible,
+                                   samples_->num_visible, *histogram_, threads_);
   model.cost = -n * mutual_information_;
   model.gradient = -n * derivatives.gradient;
   model.hessian = hessian_ == MiHessian::kReference ? reference_.self_hessian

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "mivo/core/depth_pyramid.h"
+#include "mivo/core/image_view.h"
 
 namespace mivo {
 namespace {
@@ -19,13 +20,10 @@ using Cell = std::vector<Candidate>;
 cv::Mat squaredGradient(const cv::Mat& image) {
   cv::Mat result = cv::Mat::zeros(image.size(), CV_32FC1);
   for (int y = 1; y + 1 < image.rows; ++y) {
-    const auto* above = image.ptr<float>(y - 1);
-    const auto* row = image.ptr<float>(y);
-    const auto* below = image.ptr<float>(y + 1);
     auto* out = result.ptr<float>(y);
     for (int x = 1; x + 1 < image.cols; ++x) {
-      const float gx = 0.5F * (row[x + 1] - row[x - 1]);
-      const float gy = 0.5F * (below[x] - above[x]);
+      const float gx = 0.5F * (intensityAt(image, x + 1, y) - intensityAt(image, x - 1, y));
+      const float gy = 0.5F * (intensityAt(image, x, y + 1) - intensityAt(image, x, y - 1));
       out[x] = gx * gx + gy * gy;
     }
   }
@@ -36,8 +34,8 @@ cv::Mat squaredGradient(const cv::Mat& image) {
 /// rounded to one of four. Of two equal neighbours the later one counts.
 bool isMaximal(const cv::Mat& image, const cv::Mat& strength, int x, int y) {
   constexpr float kTan22_5 = 0.41421356F;
-  const float gx = image.at<float>(y, x + 1) - image.at<float>(y, x - 1);
-  const float gy = image.at<float>(y + 1, x) - image.at<float>(y - 1, x);
+  const float gx = intensityAt(image, x + 1, y) - intensityAt(image, x - 1, y);
+  const float gy = intensityAt(image, x, y + 1) - intensityAt(image, x, y - 1);
   const float ax = std::abs(gx);
   const float ay = std::abs(gy);
   int dx = 1;

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "mivo/core/image_view.h"
+
 namespace mivo {
 namespace {
 
@@ -33,7 +35,7 @@ class Neighbourhood {
   static double sample(const ReferenceImage& image, int x, int y) {
     return static_cast<double>(image.contrast != nullptr
                                    ? normalisedIntensity(image.grey, *image.contrast, x, y)
-                                   : image.grey.at<float>(y, x));
+                                   : intensityAt(image.grey, x, y));
   }
 
   double value_, left_, right_, above_, below_;

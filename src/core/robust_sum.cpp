@@ -3,16 +3,54 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 #include "mivo/core/kernels/kernels.h"
 #include "mivo/core/parallel_chunks.h"
+#include "mivo/core/recycled.h"
 
 namespace mivo {
 namespace {
 
 // Standard deviation of a Gaussian in medians of its magnitude.
 constexpr double kMedianToDeviation = 1.4826;
+
+// Magnitudes are counted by the leading bits of their floats: 32 steps in each octave, over the
+// octaves from 2^-10 to 2^14, and the two ends. The median is then among few.
+constexpr int kStepBits = 5;
+constexpr std::uint32_t kShift = 23 - kStepBits;
+constexpr std::uint32_t kFirst = (127U - 10U) << kStepBits;
+constexpr std::uint32_t kSteps = 24U << kStepBits;
+
+std::uint32_t stepOf(float residual) {
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, &residual, sizeof(bits));
+  const std::uint32_t leading = (bits & 0x7FFFFFFFU) >> kShift;  // without the sign
+  return leading < kFirst ? 0U : std::min(leading - kFirst, kSteps - 1U);
+}
+
+/// Exact median of the magnitudes of the visible residuals, of which there is at least one.
+float medianMagnitude(const Residuals& residuals) {
+  std::array<std::uint32_t, kSteps> counts{};
+  const std::size_t n = residuals.value.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    if (residuals.visible[i] != 0.0F) ++counts[stepOf(residuals.value[i])];
+  }
+  std::size_t rank = residuals.num_visible / 2;
+  std::uint32_t step = 0;
+  while (rank >= counts[step]) rank -= counts[step++];
+  Recycled<std::vector<float>> candidates;
+  candidates->clear();
+  for (std::size_t i = 0; i < n; ++i) {
+    if (residuals.visible[i] != 0.0F && stepOf(residuals.value[i]) == step) {
+      candidates->push_back(std::abs(residuals.value[i]));
+    }
+  }
+  const auto middle = candidates->begin() + static_cast<std::ptrdiff_t>(rank);
+  std::nth_element(candidates->begin(), middle, candidates->end());
+  return *middle;
+}
 
 /// The residual of the warped keyframe is r(d) = r - J d: the gradient is minus the sum of J r.
 QuadraticModel toModel(const std::vector<kernels::LeastSquaresSums>& parts, double factor) {
@@ -39,27 +77,23 @@ RobustSum::RobustSum(RobustWeight kind, double min_scale, const Parameters& para
       threads_(parameters.threads) {}
 
 void RobustSum::estimateScale(const Residuals& residuals) {
-  magnitudes_.clear();
-  for (std::size_t i = 0; i < residuals.value.size(); ++i) {
-    if (residuals.visible[i] != 0.0F) magnitudes_.push_back(std::abs(residuals.value[i]));
-  }
-  const auto middle = magnitudes_.begin() + static_cast<std::ptrdiff_t>(magnitudes_.size() / 2);
-  std::nth_element(magnitudes_.begin(), middle, magnitudes_.end());
-  scale_ = std::max(min_scale_, kMedianToDeviation * static_cast<double>(*middle));
+  const auto median = static_cast<double>(medianMagnitude(residuals));
+  scale_ = std::max(min_scale_, kMedianToDeviation * median);
 }
 
 double RobustSum::cost(const Residuals& residuals) {
   if (residuals.num_visible == 0) return std::numeric_limits<double>::infinity();
   if (scale_ == 0.0) estimateScale(residuals);
   const std::size_t n = residuals.value.size();
-  std::vector<double> sums(numChunks(n));
+  Recycled<std::vector<double>> sums;
+  sums->resize(numChunks(n));
   forEachChunk(n, threads_, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
-    sums[chunk] =
-        kernels::robustCost(kind_, static_cast<float>(scale_), residuals.value.data() + begin,
-                            residuals.visible.data() + begin, end - begin);
+    (*sums)[chunk] = kernels::active().robustCost(kind_, static_cast<float>(scale_),
+                                                  residuals.value.data() + begin,
+                                                  residuals.visible.data() + begin, end - begin);
   });
   double sum = 0.0;
-  for (const double part : sums) sum += part;
+  for (const double part : *sums) sum += part;
   return sum * static_cast<double>(n) / static_cast<double>(residuals.num_visible);
 }
 
@@ -73,17 +107,18 @@ QuadraticModel RobustSum::linearise(const Residuals& residuals,
   // At the first iteration cost() has just estimated it at this pose.
   if (iteration > 0 && iteration < scale_iterations_) estimateScale(residuals);
   const std::size_t n = residuals.value.size();
-  std::vector<kernels::LeastSquaresSums> parts(numChunks(n));
+  Recycled<std::vector<kernels::LeastSquaresSums>> parts;
+  parts->resize(numChunks(n));
   forEachChunk(n, threads_, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
     const float* columns[6];
     for (std::size_t k = 0; k < 6; ++k) columns[k] = jacobian[k] + begin;
-    kernels::accumulateLeastSquares(
+    kernels::active().accumulateLeastSquares(
         kind_, static_cast<float>(scale_), residuals.value.data() + begin,
-        residuals.visible.data() + begin, columns, end - begin, parts[chunk]);
+        residuals.visible.data() + begin, columns, end - begin, (*parts)[chunk]);
   });
   QuadraticModel model =
-      toModel(parts, static_cast<double>(n) /
-                         (static_cast<double>(residuals.num_visible) * scale_ * scale_));
+      toModel(*parts, static_cast<double>(n) /
+                          (static_cast<double>(residuals.num_visible) * scale_ * scale_));
   model.cost = cost(residuals);
   return model;
 }

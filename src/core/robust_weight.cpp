@@ -6,12 +6,6 @@
 namespace mivo {
 namespace {
 
-// 95 % efficiency for Gaussian residuals (Huber; Beaton and Tukey).
-constexpr float kHuber = 1.345F;
-constexpr float kTukey = 4.685F;
-// Degrees of freedom of Student's t.
-constexpr float kFreedom = 5.0F;
-
 RobustLoss huber(float u) {
   const float magnitude = std::abs(u);
   if (magnitude <= kHuber) return {0.5F * u * u, 1.0F};

@@ -23,20 +23,27 @@ SsdTerm::SsdTerm(const ReferencePoints& points, const cv::Mat& live_image,
       scale_iterations_(parameters.robust_scale_iterations) {}
 
 double SsdTerm::evaluate(const Eigen::Isometry3d& T_live_ref) {
-  warp_.sample(points_, T_live_ref, live_image_, contrast_, samples_);
-  residuals_.value.resize(points_.size());
-  kernels::residuals(samples_.value.data(), points_.contrast.data(), points_.intensity.data(),
-                     samples_.visible.data(), points_.size(), residuals_.value.data());
-  residuals_.visible = samples_.visible;
-  residuals_.num_visible = samples_.num_visible;
-  return weight_ * sum_.cost(residuals_);
+  if (!is_sampled_ || T_live_ref.matrix() != T_live_ref_.matrix()) sample(T_live_ref);
+  return weight_ * sum_.cost(*residuals_);
+}
+
+void SsdTerm::sample(const Eigen::Isometry3d& T_live_ref) {
+  warp_.sample(points_, T_live_ref, live_image_, contrast_, *samples_);
+  residuals_->value.resize(points_.size());
+  kernels::active().residuals(samples_->value.data(), points_.contrast.data(),
+                              points_.intensity.data(), samples_->visible.data(), points_.size(),
+                              residuals_->value.data());
+  residuals_->visible = samples_->visible;
+  residuals_->num_visible = samples_->num_visible;
+  T_live_ref_ = T_live_ref;
+  is_sampled_ = true;
 }
 
 QuadraticModel SsdTerm::linearise(int iteration) {
   std::array<const float*, 6> jacobian;
   for (std::size_t k = 0; k < 6; ++k) jacobian[k] = points_.jacobian[k].data();
   if (iteration < scale_iterations_) weight_ = isSignificant() ? 1.0 : kNoWeight;
-  QuadraticModel model = sum_.linearise(residuals_, jacobian, iteration);
+  QuadraticModel model = sum_.linearise(*residuals_, jacobian, iteration);
   model.cost *= weight_;
   model.gradient *= weight_;
   model.hessian *= weight_;
@@ -44,29 +51,17 @@ QuadraticModel SsdTerm::linearise(int iteration) {
 }
 
 bool SsdTerm::isSignificant() const {
-  return correlation() * std::sqrt(static_cast<double>(residuals_.num_visible)) > kSignificance;
+  return correlation() * std::sqrt(static_cast<double>(residuals_->num_visible)) > kSignificance;
 }
 
 double SsdTerm::correlation() const {
-  double n = 0.0;
-  double live = 0.0;
-  double reference = 0.0;
-  double live2 = 0.0;
-  double reference2 = 0.0;
-  double product = 0.0;
-  for (std::size_t i = 0; i < points_.size(); ++i) {
-    if (residuals_.visible[i] == 0.0F) continue;
-    const auto a = static_cast<double>(samples_.value[i]);
-    const auto b = static_cast<double>(points_.intensity[i] / points_.contrast[i]);
-    n += 1.0;
-    live += a;
-    reference += b;
-    live2 += a * a;
-    reference2 += b * b;
-    product += a * b;
-  }
-  const double spread = (n * live2 - live * live) * (n * reference2 - reference * reference);
-  return spread > 0.0 ? (n * product - live * reference) / std::sqrt(spread) : 0.0;
+  kernels::PairSums sums{};
+  kernels::active().sumPairs(samples_->value.data(), points_.intensity.data(),
+                             points_.contrast.data(), samples_->visible.data(), points_.size(),
+                             sums);
+  const auto n = static_cast<double>(residuals_->num_visible);
+  const double spread = (n * sums.aa - sums.a * sums.a) * (n * sums.bb - sums.b * sums.b);
+  return spread > 0.0 ? (n * sums.ab - sums.a * sums.b) / std::sqrt(spread) : 0.0;
 }
 
 }  // namespace mivo

@@ -3,13 +3,11 @@
 
 #include <numeric>
 
+#include "mivo/core/image_view.h"
 #include "mivo/core/parallel_chunks.h"
+#include "mivo/core/recycled.h"
 
 namespace mivo {
-
-kernels::ImageView view(const cv::Mat& image) {
-  return {image.ptr<float>(), static_cast<std::ptrdiff_t>(image.step1()), image.cols, image.rows};
-}
 
 Warp::Warp(const Camera& camera, const RowMotion& rows, int threads)
     : camera_(camera),
@@ -52,22 +50,23 @@ void Warp::sample(const ReferencePoints& points, const Eigen::Isometry3d& T_live
   }
   const kernels::WarpParameters warp = parameters(T_live_ref);
   const kernels::ImageView pixels = view(image);
-  std::vector<std::size_t> visible(numChunks(points.size()));
+  const kernels::Kernels& kernels = kernels::active();
+  Recycled<std::vector<std::size_t>> visible;
+  visible->resize(numChunks(points.size()));
   forEachChunk(points.size(), threads_, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
     const std::size_t n = end - begin;
     float* u = samples.u.data() + begin;
     float* v = samples.v.data() + begin;
     float* seen = samples.visible.data() + begin;
     float* value = samples.value.data() + begin;
-    visible[chunk] = kernels::warpPoints(warp, points.view(begin), n, u, v, seen);
+    (*visible)[chunk] = kernels.warpPoints(warp, points.view(begin), n, u, v, seen);
     if (contrast != nullptr) {
-      kernels::sampleNormalised(pixels, view(contrast->mean), view(contrast->deviation),
-                                contrast->constant, u, v, seen, n, value);
+      kernels.sampleNormalised(pixels, view(*contrast), u, v, seen, n, value);
     } else {
-      kernels::sampleIntensity(pixels, u, v, seen, n, value);
+      kernels.sampleIntensity(pixels, u, v, seen, n, value);
     }
   });
-  samples.num_visible = std::accumulate(visible.begin(), visible.end(), std::size_t{0});
+  samples.num_visible = std::accumulate(visible->begin(), visible->end(), std::size_t{0});
 }
 
 }  // namespace mivo

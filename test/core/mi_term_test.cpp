@@ -155,8 +155,7 @@ TEST(MiTermTest, ClampedIntensitiesDoNotMove) {
   Problem problem(pair, {});
   problem.evaluate(Random(4).pose(0.03, 0.02));
   const auto num_clamped =
-      std::count_if(problem.reference_.bins.begin(), problem.reference_.bins.end(),
-                    [](const BinPosition& bin) { return bin.is_clamped; });
+      std::count(problem.reference_.unclamped.begin(), problem.reference_.unclamped.end(), 0.0F);
   ASSERT_GT(num_clamped, 50);
   EXPECT_LT(
       testing::relativeError(problem.term_.linearise(0).gradient, problem.numericGradient(1e-6)),

@@ -206,8 +206,7 @@ TEST(ReferencePointsTest, NormalisedPointsAreInGreyLevelsAgain) {
   const Camera camera = analyticCamera();
   const cv::Mat raster = testing::rasterised(testing::waves(), camera.width, camera.height);
   ContrastMap map;
-  map.mean = cv::Mat(20, 25, CV_32FC1, cv::Scalar(100.0F));
-  map.deviation = cv::Mat(20, 25, CV_32FC1, cv::Scalar(24.0F));
+  map.pairs = cv::Mat(21, 26, CV_32FC2, cv::Scalar(100.0F, 24.0F));
   map.constant = 6.0F;
   const ReferencePoints raw = makePoints(raster, camera, kPixels);
   ReferencePoints normalised;

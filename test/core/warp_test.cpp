@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <opencv2/core.hpp>
 
 #include "support/analytic_points.h"
 #include "support/random_pose.h"
@@ -138,8 +139,10 @@ TEST_F(WarpTest, NormalisedSamplesAreOffsetAndGain) {
       testing::rasterised(testing::rampImage(90.0, kSlope), camera.width, camera.height);
   // A map whose pixel (u, v) lies at (4u, 4v): ramps, so that its interpolation is exact too.
   ContrastMap map;
-  map.mean = testing::rasterised(testing::rampImage(50.0, {0.4, 0.2}), 25, 20, 4.0);
-  map.deviation = testing::rasterised(testing::rampImage(20.0, {0.1, -0.05}), 25, 20, 4.0);
+  const cv::Mat values[] = {
+      testing::rasterised(testing::rampImage(50.0, {0.4, 0.2}), 26, 21, 4.0),
+      testing::rasterised(testing::rampImage(20.0, {0.1, -0.05}), 26, 21, 4.0)};
+  cv::merge(values, 2, map.pairs);
   map.constant = 3.0F;
   const Eigen::Isometry3d T = Random(3).pose(0.05, 0.05);
   Warp(camera, {}, 1).sample(points_, T, image, &map, samples_);

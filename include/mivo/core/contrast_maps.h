@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mivo/core/image_pyramid.h"
+#include "mivo/core/kernels/kernels.h"
 
 namespace mivo {
 
@@ -12,10 +13,15 @@ namespace mivo {
 /// L = (I - mean) / (deviation + constant): what a lamp or an exposure does to a neighbourhood, a
 /// gain and an offset, drops out.
 struct ContrastMap {
-  cv::Mat mean;           ///< CV_32FC1, a quarter of the level's side: the image two levels up,
-  cv::Mat deviation;      ///< averaged over 5 x 5 of its pixels; pixel (u, v) lies at (u, v) / 4
+  /// CV_32FC2 (mean, deviation) over 5 x 5 pixels of the image two levels up: pixel (u, v) lies at
+  /// (u, v) / 4. The last column and the last row are there twice, so that every pixel has a
+  /// neighbour to the right and below.
+  cv::Mat pairs;
   float constant = 1.0F;  ///< grey levels; keeps flat, noisy places small
 };
+
+/// As the kernels see it.
+kernels::ContrastView view(const ContrastMap& map);
 
 /// The contrast maps of a frame, level by level.
 class ContrastMaps {
@@ -33,7 +39,7 @@ class ContrastMaps {
 
  private:
   std::vector<ContrastMap> maps_;
-  cv::Mat square_;
+  std::vector<float> scratch_;
   double noise_ = 0.0;
   double contrast_ = 0.0;
 };
@@ -44,7 +50,8 @@ float normalisedIntensity(const cv::Mat& image, const ContrastMap& map, int x, i
 /// Local deviation plus constant at a whole pixel of a level: grey levels per unit of L.
 float localContrast(const ContrastMap& map, int x, int y);
 
-/// A whole level normalised and scaled to grey levels, CV_32FC1 0..255, 128 for the local mean.
+/// A whole level, CV_32FC1 or CV_8UC1, normalised and scaled to grey levels, CV_32FC1 0..255, 128
+/// for the local mean.
 void normaliseImage(const cv::Mat& image, const ContrastMap& map, cv::Mat& normalised);
 
 }  // namespace mivo

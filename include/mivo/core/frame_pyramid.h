@@ -23,10 +23,11 @@ class FramePyramid {
   int numLevels() const { return num_levels_; }
   bool isNormalised() const { return is_normalised_; }
 
-  const cv::Mat& grey(int level) const { return images_.level(level); }  ///< CV_32FC1 0..255
-  const ContrastMaps& contrast() const { return contrast_; }             ///< if isNormalised()
+  /// CV_8UC1 on level 0, CV_32FC1 0..255 above.
+  const cv::Mat& grey(int level) const { return images_.level(level); }
+  const ContrastMaps& contrast() const { return contrast_; }  ///< if isNormalised()
 
-  /// What mutual information compares on a level that uses it: CV_32FC1 0..255.
+  /// What mutual information compares on a level that uses it: CV_32FC1 or CV_8UC1, 0..255.
   const cv::Mat& informationImage(int level) const;
   /// The grey levels of it that fill the bins.
   const IntensityRange& informationRange(int level) const {
@@ -37,6 +38,8 @@ class FramePyramid {
 
   /// Depth at a pixel of level 0, metres; 0 for no reading.
   float depthAt(int x, int y) const;
+  /// Readings of level 0 as the kernels see them.
+  kernels::DepthView depthView() const;
 
  private:
   Frame frame_;

@@ -8,6 +8,7 @@
 #include "mivo/core/frame_pyramid.h"
 #include "mivo/core/geometric_points.h"
 #include "mivo/core/parameters.h"
+#include "mivo/core/recycled.h"
 #include "mivo/core/robust_sum.h"
 #include "mivo/core/warp.h"
 
@@ -26,23 +27,24 @@ class GeometricTerm : public CostTerm {
   double evaluate(const Eigen::Isometry3d& T_live_ref) override;
   QuadraticModel linearise(int iteration) override;
 
-  std::size_t numVisible() const { return residuals_.num_visible; }
+  std::size_t numVisible() const { return residuals_->num_visible; }
 
   /// Scale of the residuals in deviations of a reading, at least 1.
   double scale() const { return sum_.scale(); }
 
  private:
-  void addResidual(std::size_t i, const Eigen::Isometry3f& T_live_ref,
-                   const Eigen::Isometry3f& T_ref_live);
+  void measure(const Eigen::Isometry3d& T_live_ref);
 
   const GeometricPoints& points_;
   std::size_t num_points_;
   const FramePyramid& live_;
   const Warp& warp_;
   RobustSum sum_;
-  std::vector<float> u_, v_, in_view_;
-  Residuals residuals_;
-  std::array<std::vector<float>, 6> jacobian_;
+  Eigen::Isometry3d T_live_ref_;  // of the residuals
+  bool is_measured_ = false;
+  Recycled<std::vector<float>> u_, v_;
+  Recycled<Residuals> residuals_;
+  Recycled<std::array<std::vector<float>, 6>> jacobian_;
 };
 
 }  // namespace mivo

@@ -9,8 +9,8 @@ namespace mivo {
 /// Number of levels to use for an image: `wanted`, or fewer so that the coarsest is not too small.
 int usableLevels(int width, int height, int wanted);
 
-/// Grey pyramid, CV_32FC1 0..255. Level 0 is the image; each further level is reduced by the 5 x 5
-/// Gaussian of cv::pyrDown, which keeps the even pixels (see Camera::atLevel).
+/// Grey pyramid. Level 0 is the image, CV_8UC1; each further level, CV_32FC1 0..255, is reduced by
+/// the 5 x 5 Gaussian of cv::pyrDown, which keeps the even pixels (see Camera::atLevel).
 class ImagePyramid {
  public:
   /// Rebuilds all levels from an image CV_8UC1; buffers are reused.
@@ -21,6 +21,7 @@ class ImagePyramid {
 
  private:
   std::vector<cv::Mat> levels_;
+  std::vector<float> scratch_;
   int num_levels_ = 0;
 };
 

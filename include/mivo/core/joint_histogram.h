@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "mivo/core/bspline.h"
+#include "mivo/core/kernels/kernels.h"
 
 namespace mivo {
 
@@ -16,7 +17,8 @@ struct IntensityRange {
   float high = 255.0F;
 };
 
-/// The range between two quantiles of a CV_32FC1 image of 0..255, at least one grey level wide.
+/// The range between two quantiles of a CV_32FC1 or CV_8UC1 image of 0..255, at least one grey
+/// level wide.
 IntensityRange intensityRange(const cv::Mat& image, double quantile);
 
 /// Place of an intensity on the axis of bins: s = bin + fraction, 0 <= s < num_bins - 1.
@@ -35,6 +37,8 @@ class Binning {
 
   BinPosition operator()(float intensity) const;
   float binsPerGreyLevel() const { return scale_; }
+  float low() const { return low_; }  ///< grey level at the centre of the first bin
+  float top() const { return top_; }  ///< largest position
 
  private:
   float low_ = 0.0F;
@@ -47,7 +51,11 @@ class Binning {
 /// the table: a position in bin k touches rows k .. k + 3.
 class JointHistogram {
  public:
-  explicit JointHistogram(int num_bins);
+  JointHistogram() = default;
+  explicit JointHistogram(int num_bins) { resize(num_bins); }
+
+  /// Reuses the memory; the contents are arbitrary until clear().
+  void resize(int num_bins);
 
   int side() const { return side_; }
 
@@ -60,7 +68,11 @@ class JointHistogram {
   /// Adds the sums of another histogram of the same size.
   void add(const JointHistogram& other);
 
-  /// Divides by the number of pairs added and forms the marginals.
+  /// Adds the pairs of n visible points, weight one each. Bins are those of BinPosition.
+  void add(const kernels::BinsView& reference, const kernels::BinsView& live, const float* visible,
+           std::size_t n);
+
+  /// Divides by the number of pairs added, and forms the marginals and what follows from them.
   void normalise(std::size_t num_pairs);
 
   double joint(int reference, int live) const { return joint_[index(reference, live)]; }
@@ -69,18 +81,26 @@ class JointHistogram {
   }
   double liveMarginal(int live) const { return live_[static_cast<std::size_t>(live)]; }
 
+  /// log(p_rl / p_r), 0 where p_rl is 0; side() x side(), row by row.
+  const std::vector<float>& logRatios() const { return log_ratio_; }
+
   /// Mutual information, nats (Eq. 2). At least zero, at most the smaller of the two entropies.
-  double mutualInformation() const;
+  double mutualInformation() const { return mutual_information_; }
 
  private:
+  void takeLogarithms();
   std::size_t index(int reference, int live) const {
     return static_cast<std::size_t>(reference * side_ + live);
   }
 
-  int side_;
+  int side_ = 0;
   std::vector<double> joint_;
   std::vector<double> reference_;
   std::vector<double> live_;
+  std::vector<double> logarithm_;
+  std::vector<float> log_ratio_;
+  std::vector<float> scratch_;
+  double mutual_information_ = 0.0;
 };
 
 }  // namespace mivo

@@ -42,7 +42,6 @@ class RobustSum {
   int scale_iterations_;
   int threads_;
   double scale_ = 0.0;
-  std::vector<float> magnitudes_;
 };
 
 }  // namespace mivo

@@ -6,6 +6,7 @@
 #include "mivo/core/contrast_maps.h"
 #include "mivo/core/cost_term.h"
 #include "mivo/core/parameters.h"
+#include "mivo/core/recycled.h"
 #include "mivo/core/reference_points.h"
 #include "mivo/core/robust_sum.h"
 #include "mivo/core/warp.h"
@@ -38,11 +39,13 @@ class SsdTerm : public CostTerm {
   /// the pose, and the term leaves it to the others.
   bool isInformative() const { return weight_ == 1.0; }
 
-  std::size_t numVisible() const { return residuals_.num_visible; }
-  const Residuals& residuals() const { return residuals_; }
-  const LiveSamples& samples() const { return samples_; }
+  std::size_t numVisible() const { return residuals_->num_visible; }
+  const Residuals& residuals() const { return *residuals_; }
+  const LiveSamples& samples() const { return *samples_; }
 
  private:
+  void sample(const Eigen::Isometry3d& T_live_ref);
+
   const ReferencePoints& points_;
   const cv::Mat& live_image_;
   const ContrastMap* contrast_;
@@ -50,8 +53,10 @@ class SsdTerm : public CostTerm {
   RobustSum sum_;
   int scale_iterations_;
   double weight_ = 1.0;
-  LiveSamples samples_;
-  Residuals residuals_;
+  Eigen::Isometry3d T_live_ref_;  // of the samples
+  bool is_sampled_ = false;
+  Recycled<LiveSamples> samples_;
+  Recycled<Residuals> residuals_;
 };
 
 }  // namespace mivo

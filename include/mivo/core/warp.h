@@ -30,7 +30,7 @@ class Warp {
   /// rows are read. @param threads see the parameter.
   Warp(const Camera& camera, const RowMotion& rows, int threads);
 
-  /// Bilinear samples of a CV_32FC1 level, normalised by `contrast` unless that is null.
+  /// Bilinear samples of a CV_32FC1 or CV_8UC1 level, normalised by `contrast` unless that is null.
   void sample(const ReferencePoints& points, const Eigen::Isometry3d& T_live_ref,
               const cv::Mat& image, const ContrastMap* contrast, LiveSamples& samples) const;
 
@@ -46,8 +46,5 @@ class Warp {
   float max_squared_radius_;
   int threads_;
 };
-
-/// A CV_32FC1 image as the kernels see it.
-kernels::ImageView view(const cv::Mat& image);
 
 }  // namespace mivo

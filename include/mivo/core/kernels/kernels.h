@@ -2,23 +2,20 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
 
+#include "mivo/core/kernels/image_view.h"
 #include "mivo/core/parameters.h"
 
-// The hot loops of the tracker as functions over plain float arrays. All arrays of one call have n
-// entries unless said otherwise, may start at any address and must not overlap. `visible` is 1 for
-// a point that takes part and 0 for one that does not.
+// The hot loops of the tracker as functions over plain arrays, once in plain C++ (the reference)
+// and once with vector instructions, which the processor decides on at run time. All arrays of one
+// call have n entries unless said otherwise, may start at any address and must not overlap.
+// `visible` is 1 for a point that takes part and 0 for one that does not.
 
 namespace mivo {
 namespace kernels {
-
-/// Rows of floats, `stride` floats apart.
-struct ImageView {
-  const float* data;
-  std::ptrdiff_t stride;
-  int width;
-  int height;
-};
 
 /// Points as a structure of arrays, metres.
 struct PointsView {
@@ -44,38 +41,167 @@ struct WarpParameters {
   float right, bottom;       ///< visible: 0 <= u < right, 0 <= v < bottom
 };
 
-/// Pixels of the points, and whether they are in front of the camera and inside; pixels of
-/// invisible points are 0. Returns the number of visible ones.
-std::size_t warpPoints(const WarpParameters& parameters, const PointsView& points, std::size_t n,
-                       float* u, float* v, float* visible);
-
-/// Bilinear intensity at the pixels; 0 where not visible.
-void sampleIntensity(const ImageView& image, const float* u, const float* v, const float* visible,
-                     std::size_t n, float* intensity);
-
-/// Locally normalised intensity (I - mean) / (deviation + constant). The maps are reduced to a
-/// quarter of the image's side: pixel (u, v) lies at (u / 4, v / 4). 0 where not visible.
-void sampleNormalised(const ImageView& image, const ImageView& mean, const ImageView& deviation,
-                      float constant, const float* u, const float* v, const float* visible,
-                      std::size_t n, float* normalised);
-
-/// residual = contrast * live - reference, 0 where not visible.
-void residuals(const float* live, const float* contrast, const float* reference,
-               const float* visible, std::size_t n, float* residual);
-
-/// Sum of robust losses of the visible residuals, see robustLoss.
-double robustCost(RobustWeight kind, float scale, const float* residual, const float* visible,
-                  std::size_t n);
-
-/// Sums of weighted least squares over the visible residuals, with the robust weights w:
-/// hessian (upper triangle row by row) = sum w J Jᵀ, gradient = sum w J r.
+/// Sums of weighted least squares: hessian (upper triangle row by row) = sum w J Jᵀ,
+/// gradient = sum w J r.
 struct LeastSquaresSums {
   double hessian[21];
   double gradient[6];
 };
-void accumulateLeastSquares(RobustWeight kind, float scale, const float* residual,
-                            const float* visible, const float* const jacobian[6], std::size_t n,
-                            LeastSquaresSums& sums);
+
+/// Sums of pairs of numbers (a, b) and of their products.
+struct PairSums {
+  double a, b, aa, bb, ab;
+};
+
+/// Points on planes with unit normals, and what a residual along the normal is multiplied by.
+struct PlanesView {
+  PointsView point;
+  PointsView normal;
+  const float* weight;
+};
+
+/// A row-major rigid motion.
+struct Motion {
+  float rotation[9];
+  float translation[3];
+};
+
+/// Positions on the axis of bins: bin + fraction, 0 <= fraction < 1.
+struct BinsView {
+  const std::int32_t* bin;
+  const float* fraction;
+};
+
+/// What the derivatives of mutual information sum up; see mi_derivatives.cpp for the symbols. In
+/// derivatives with respect to the increment, of intensities in grey levels.
+struct InformationSums {
+  double gradient[6];    ///< sum of g J
+  double curvature[21];  ///< sum of s h J Jᵀ + g S, upper triangle row by row
+};
+
+/// Floats per row of the table of dp_rl, and of a point's Jacobian in rows: 6 and two zeros.
+constexpr int kRowFloats = 8;
+
+struct Kernels {
+  /// Pixels of the points, and whether they are in front of the camera and inside; pixels of
+  /// invisible points are 0. Returns the number of visible ones.
+  std::size_t (*warpPoints)(const WarpParameters& parameters, const PointsView& points,
+                            std::size_t n, float* u, float* v, float* visible);
+
+  /// Bilinear intensity at pixels as warpPoints leaves them; 0 where not visible.
+  void (*sampleIntensity)(const ImageView& image, const float* u, const float* v,
+                          const float* visible, std::size_t n, float* intensity);
+
+  /// Locally normalised intensity (I - mean) / (deviation + constant), see ContrastView.
+  void (*sampleNormalised)(const ImageView& image, const ContrastView& contrast, const float* u,
+                           const float* v, const float* visible, std::size_t n, float* normalised);
+
+  /// residual = contrast * live - reference, 0 where not visible.
+  void (*residuals)(const float* live, const float* contrast, const float* reference,
+                    const float* visible, std::size_t n, float* residual);
+
+  /// Sum of robust losses of the visible residuals, see robustLoss.
+  double (*robustCost)(RobustWeight kind, float scale, const float* residual, const float* visible,
+                       std::size_t n);
+
+  /// With the robust weights of the visible residuals.
+  void (*accumulateLeastSquares)(RobustWeight kind, float scale, const float* residual,
+                                 const float* visible, const float* const jacobian[6],
+                                 std::size_t n, LeastSquaresSums& sums);
+
+  /// Sums over the visible points of a and b / divisor.
+  void (*sumPairs)(const float* a, const float* b, const float* divisor, const float* visible,
+                   std::size_t n, PairSums& sums);
+
+  /// Point to plane, r = weight n . (T_ref_live Y - X): Y is the reading where X falls, at the
+  /// pixel nearest to (u, v). `visible`: on input whether the point is in view, on output whether
+  /// it has a reading. The Jacobian is that of r(d) = r - J d for the increment d of the keyframe.
+  /// Returns the number of visible ones.
+  std::size_t (*geometricResiduals)(const WarpParameters& live, const Motion& T_ref_live,
+                                    const PlanesView& planes, const DepthView& depth,
+                                    const float* u, const float* v, std::size_t n, float* visible,
+                                    float* residual, float* const jacobian[6]);
+
+  /// position = (value - low) * scale, held within 0..top, split into bin and fraction.
+  void (*binPositions)(const float* value, std::size_t n, float low, float scale, float top,
+                       std::int32_t* bin, float* fraction);
+
+  /// Adds the visible pairs' products of B-spline weights to sums[side * side], row = bin of the
+  /// reference: bins are 0..side - 4 and touch 4 entries from there. @param scratch
+  /// histogramScratch(side) floats.
+  void (*jointHistogram)(const BinsView& reference, const BinsView& live, const float* visible,
+                         std::size_t n, int side, float* scratch, double* sums);
+
+  /// Natural logarithms; 0 for what is not positive.
+  void (*logarithms)(const double* value, std::size_t n, double* logarithm);
+
+  /// Adds dp_rl, without the scale s and 1/n, to rows[side * side * kRowFloats], and sets the sums.
+  /// @param active 1 for a point that counts. @param log_ratio side * side: log(p_rl / p_r).
+  /// @param jacobian_rows n * kRowFloats. @param bin_scale s, bins per grey level.
+  void (*informationDerivatives)(const BinsView& reference, const BinsView& live,
+                                 const float* active, const float* jacobian_rows,
+                                 const float* const jacobian[6],
+                                 const float* const second_derivative[21], std::size_t n, int side,
+                                 float bin_scale, const float* log_ratio, float* rows,
+                                 InformationSums& sums);
+
+  /// 5 x 5 Gaussian that keeps the even pixels, as cv::pyrDown: `coarse` has (width + 1) / 2
+  /// columns and (height + 1) / 2 rows. @param scratch imageScratch(width) floats.
+  void (*reduce)(const ImageView& fine, float* coarse, std::ptrdiff_t coarse_stride,
+                 float* scratch);
+
+  /// Mean and standard deviation over 5 x 5 pixels, mirrored at the border, as pairs. The image is
+  /// of floats and has at least 3 x 3 pixels. Returns the sum of the variances. @param scratch
+  /// imageScratch(width) floats.
+  double (*contrastMap)(const ImageView& image, float* pairs, std::ptrdiff_t pairs_stride,
+                        float* scratch);
+
+  /// A whole image normalised and scaled: clamp(middle + gain * (I - mean) / (deviation +
+  /// constant), 0, white). @param scratch imageScratch(width) floats.
+  void (*normaliseImage)(const ImageView& image, const ContrastView& contrast,
+                         const NormaliseParameters& parameters, float* normalised,
+                         std::ptrdiff_t normalised_stride, float* scratch);
+
+  /// One row of squared gradients of central differences, for 1 <= x < n - 1; 0 at both ends.
+  void (*gradientRow)(const ImageView& image, int y, float* squared);
+
+  /// Where a row of squared gradients is at least `threshold`, positive, and maximal among the two
+  /// neighbours in the gradient's direction, rounded to one of four; of two equal neighbours the
+  /// later one counts. One byte per pixel, for 2 <= x < width - 2; 0 elsewhere. @param squared
+  /// those of the rows y - 1, y, y + 1.
+  void (*maximaRow)(const ImageView& image, int y, const float* const squared[3], float threshold,
+                    std::uint8_t* maximal);
+};
+
+/// Floats that jointHistogram needs.
+inline std::size_t histogramScratch(int side) {
+  const auto cells = static_cast<std::size_t>(side - 3) * static_cast<std::size_t>(side - 3);
+  return 2 * 16 * cells;
+}
+
+/// Floats that the kernels of whole images need for rows of a width.
+inline std::size_t imageScratch(int width) {
+  return 4 * (static_cast<std::size_t>(width) + 64);
+}
+
+/// The reference.
+const Kernels& scalar();
+
+struct Backend {
+  std::string name;  ///< "scalar", or the instruction set: SSE4, AVX2, AVX3 (AVX-512), NEON
+  const Kernels* kernels;
+};
+
+/// What this processor can run, the reference first, the fastest last.
+std::vector<Backend> backends();
+
+/// The kernels in use: the fastest, unless another was chosen.
+const Kernels& active();
+std::string activeName();
+
+/// Uses a backend by its name, or the fastest by "auto", in the whole process. Throws Error with
+/// the names there are for another one. Not while a frame is processed.
+void select(const std::string& name);
 
 }  // namespace kernels
 }  // namespace mivo

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <atomic>
+
+#include "kernels/scalar.h"
+#include "kernels/vector.h"
+#include "mivo/core/error.h"
+
+namespace mivo {
+namespace kernels {
+namespace {
+
+std::atomic<const Kernels*>& chosen() {
+  static std::atomic<const Kernels*> kernels{backends().back().kernels};
+  return kernels;
+}
+
+}  // namespace
+
+const Kernels& scalar() {
+  static const Kernels kernels = {
+      reference::warpPoints,     reference::sampleIntensity,    reference::sampleNormalised,
+      reference::residuals,      reference::robustCost,         reference::accumulateLeastSquares,
+      reference::sumPairs,       reference::geometricResiduals, reference::binPositions,
+      reference::jointHistogram, reference::logarithms,         reference::informationDerivatives,
+      reference::reduce,         reference::contrastMap,        reference::normaliseImage,
+      reference::gradientRow,    reference::maximaRow,
+  };
+  return kernels;
+}
+
+std::vector<Backend> backends() {
+  std::vector<Backend> all = {{"scalar", &scalar()}};
+  for (const Backend& backend : vectorBackends()) all.push_back(backend);
+  return all;
+}
+
+const Kernels& active() {
+  return *chosen().load(std::memory_order_relaxed);
+}
+
+std::string activeName() {
+  for (const Backend& backend : backends()) {
+    if (backend.kernels == &active()) return backend.name;
+  }
+  return "unknown";
+}
+
+void select(const std::string& name) {
+  std::string names = "auto";
+  for (const Backend& backend : backends()) {
+    names += ", " + backend.name;
+    if (backend.name == name) {
+      chosen() = backend.kernels;
+      return;
+    }
+  }
+  if (name != "auto") throw Error("kernels \"" + name + "\": this processor has " + names);
+  chosen() = backends().back().kernels;
+}
+
+}  // namespace kernels
+}  // namespace mivo

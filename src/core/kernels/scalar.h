@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "mivo/core/kernels/kernels.h"
+
+// The readable reference of every kernel. The vector kernels finish the last few points of an array
+// with it.
+
+namespace mivo {
+namespace kernels {
+namespace reference {
+
+std::size_t warpPoints(const WarpParameters& parameters, const PointsView& points, std::size_t n,
+                       float* u, float* v, float* visible);
+void sampleIntensity(const ImageView& image, const float* u, const float* v, const float* visible,
+                     std::size_t n, float* intensity);
+void sampleNormalised(const ImageView& image, const ContrastView& contrast, const float* u,
+                      const float* v, const float* visible, std::size_t n, float* normalised);
+
+void residuals(const float* live, const float* contrast, const float* reference,
+               const float* visible, std::size_t n, float* residual);
+double robustCost(RobustWeight kind, float scale, const float* residual, const float* visible,
+                  std::size_t n);
+void accumulateLeastSquares(RobustWeight kind, float scale, const float* residual,
+                            const float* visible, const float* const jacobian[6], std::size_t n,
+                            LeastSquaresSums& sums);
+void sumPairs(const float* a, const float* b, const float* divisor, const float* visible,
+              std::size_t n, PairSums& sums);
+std::size_t geometricResiduals(const WarpParameters& live, const Motion& T_ref_live,
+                               const PlanesView& planes, const DepthView& depth, const float* u,
+                               const float* v, std::size_t n, float* visible, float* residual,
+                               float* const jacobian[6]);
+
+void binPositions(const float* value, std::size_t n, float low, float scale, float top,
+                  std::int32_t* bin, float* fraction);
+void jointHistogram(const BinsView& reference, const BinsView& live, const float* visible,
+                    std::size_t n, int side, float* scratch, double* sums);
+void logarithms(const double* value, std::size_t n, double* logarithm);
+void informationDerivatives(const BinsView& reference, const BinsView& live, const float* active,
+                            const float* jacobian_rows, const float* const jacobian[6],
+                            const float* const second_derivative[21], std::size_t n, int side,
+                            float bin_scale, const float* log_ratio, float* rows,
+                            InformationSums& sums);
+
+void reduce(const ImageView& fine, float* coarse, std::ptrdiff_t coarse_stride, float* scratch);
+double contrastMap(const ImageView& image, float* pairs, std::ptrdiff_t pairs_stride,
+                   float* scratch);
+void normaliseImage(const ImageView& image, const ContrastView& contrast,
+                    const NormaliseParameters& parameters, float* normalised,
+                    std::ptrdiff_t normalised_stride, float* scratch);
+void gradientRow(const ImageView& image, int y, float* squared);
+void maximaRow(const ImageView& image, int y, const float* const squared[3], float threshold,
+               std::uint8_t* maximal);
+
+// The same from column `first` (at least 1) on.
+void gradientTail(const ImageView& image, int y, int first, float* squared);
+void maximaTail(const ImageView& image, int y, const float* const squared[3], float threshold,
+                int first, std::uint8_t* maximal);
+
+}  // namespace reference
+}  // namespace kernels
+}  // namespace mivo

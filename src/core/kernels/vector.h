@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "mivo/core/kernels/kernels.h"
+
+namespace mivo {
+namespace kernels {
+
+/// The vector kernels that this processor can run, the fastest last; none where mivo is built
+/// without them.
+std::vector<Backend> vectorBackends();
+
+}  // namespace kernels
+}  // namespace mivo
