@@ -150,6 +150,7 @@ void CameraSession::startAndStop(Time now) {
       stream.delivered = false;
       stream.last_image = now;
       stream.warm_up = status_.device.is_recording ? 0 : times_.warm_up_images;
+      stream.unsettled = status_.device.is_recording ? 0 : times_.most_unsettled_images;
       stream.monitor.restart();
       settings_pending_ = settings_pending_ || kind == StreamKind::kColor;
     } else if (!demand_.wants(kind) && stream.running) {
@@ -190,12 +191,24 @@ void CameraSession::receive(const ImageView& image, Time now) {
   status_.failures = 0;
   stream.monitor.add(image.device_stamp, image.index);
   clock_filter_.observe(image.device_stamp, arrival);
-  if (stream.warm_up > 0) {
-    --stream.warm_up;
+  if (isWarmingUp(stream)) {
     return;
   }
   listener_.onImage(image, clock_filter_.hostTime(image.kind, image.device_stamp));
   checkRate();
+}
+
+bool CameraSession::isWarmingUp(Stream& stream) const {
+  if (stream.warm_up > 0) {
+    --stream.warm_up;
+    return true;
+  }
+  if (stream.unsettled > 0 && !clock_filter_.isSettled()) {
+    --stream.unsettled;
+    return true;
+  }
+  stream.unsettled = 0;
+  return false;
 }
 
 void CameraSession::checkSilence(Time now) {

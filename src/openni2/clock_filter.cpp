@@ -14,6 +14,8 @@ constexpr double kSlopeSpan = 5.0;     // s that must be seen before the clocks'
 constexpr double kMaxSlope = 0.001;    // crystals are better than 1000 ppm
 constexpr double kSettle = 1.0;        // s at the start in which corrections act at once
 constexpr double kFollowRate = 0.001;  // s per s, afterwards: invisible to a tracker
+constexpr double kNews = 0.0005;       // s by which the difference falls when it is not yet known
+constexpr int kQuiet = 20;             // images without such news
 constexpr double kJump = 0.5;          // s: more than USB and a busy machine delay
 constexpr int kJumpCount = 5;          // images in a row, for a single one may just be very late
 constexpr std::int64_t kSmallestStep = 1000;  // ns between two stamps of a stream
@@ -30,6 +32,8 @@ void ClockFilter::restart(std::uint64_t device_stamp, std::int64_t arrival) {
   buckets_.clear();
   last_device_ = 0.0;
   jumped_ = 0;
+  floor_ = 0.0;
+  quiet_ = 0;
   slope_ = 0.0;
   offset_ = 0.0;
   applied_ = 0.0;
@@ -57,9 +61,18 @@ void ClockFilter::observe(std::uint64_t device_stamp, std::int64_t arrival) {
     point = {0.0, 0.0};
   }
   jumped_ = 0;
+  ++quiet_;
+  if (point.difference < floor_ - kNews) {
+    floor_ = point.difference;
+    quiet_ = 0;
+  }
   add(point);
   fitLine();
   follow(std::max(device, applied_at_));
+}
+
+bool ClockFilter::isSettled() const {
+  return started_ && quiet_ >= kQuiet;
 }
 
 bool ClockFilter::isJump(const Point& point) {

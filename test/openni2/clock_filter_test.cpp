@@ -74,7 +74,7 @@ TEST_P(ClockFilterDriftTest, MinuteOfJitterStaysWithinTwoMillisecondsAndGrows) {
     }
     newest[k] = image.stamp;
     filter.observe(image.stamp, image.arrival);
-    if (++seen[k] <= kWarmUp) {
+    if (++seen[k] <= kWarmUp || (checked == 0 && !filter.isSettled())) {
       continue;
     }
     const std::int64_t host = filter.hostTime(image.kind, image.stamp);
@@ -139,6 +139,18 @@ TEST(ClockFilterTest, HostClockThatWasSetBackIsFollowed) {
     if (i % 150 > 10) {
       EXPECT_NEAR(host - taken, 0, 2000) << i;
     }
+  }
+}
+
+TEST(ClockFilterTest, SettlesOnlyOnceDelaysStopFalling) {
+  ClockFilter filter;
+  EXPECT_FALSE(filter.isSettled());
+  for (int i = 0; i < 60; ++i) {
+    const std::int64_t taken = kEpoch + i * kSecond / 30;
+    const auto stamp = kDeviceEpoch + static_cast<std::uint64_t>(i) * 1000000 / 30;
+    const std::int64_t late = std::max(0, 30 - i) * kMillisecond;  // a busy start
+    filter.observe(stamp, taken + late);
+    EXPECT_EQ(filter.isSettled(), i >= 50) << i;
   }
 }
 

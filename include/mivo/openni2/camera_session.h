@@ -76,9 +76,11 @@ struct SessionTimes {
   std::chrono::milliseconds next_image{2000};     ///< a running stream must deliver within this
   std::chrono::milliseconds read{50};             ///< longest wait in one step
   std::chrono::milliseconds check{500};           ///< how often an idle device is looked after
-  /// Images of a camera that are not handed on after it starts: its exposure settles, settings take
-  /// effect, and the clocks' difference becomes known. Recordings lose none.
+  /// Images of a camera that are not handed on after a stream starts: its exposure settles,
+  /// settings take effect, and the clocks' difference becomes known. Recordings lose none.
   int warm_up_images = 10;
+  /// So many more at most while the clocks' difference is still falling: the machine is busy.
+  int most_unsettled_images = 60;
 };
 
 /// The life of a camera: opens it, keeps the wanted streams running, stamps images, notices loss
@@ -107,6 +109,7 @@ class CameraSession {
     bool delivered = false;  ///< since it was started
     Time last_image;         ///< or the start
     int warm_up = 0;         ///< images still to be held back
+    int unsettled = 0;       ///< and so many more until the clock filter has settled
     RateMonitor monitor;
   };
 
@@ -118,6 +121,7 @@ class CameraSession {
   void startAndStop(Time now);
   void stepDevice(Time now);
   void receive(const ImageView& image, Time now);
+  bool isWarmingUp(Stream& stream) const;
   void checkSilence(Time now);
   void checkRate();
   void applySettings();

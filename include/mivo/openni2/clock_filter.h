@@ -28,6 +28,10 @@ class ClockFilter {
   /// Forgets the clocks' difference, for another device. Results still grow.
   void reset() { started_ = false; }
 
+  /// Whether the last images brought no news of the clocks' difference: results are good from now
+  /// on.
+  bool isSettled() const;
+
   /// Rate of the device's clock relative to the host's, minus 1; 0 until it is known.
   double skew() const { return -slope_; }
 
@@ -52,6 +56,8 @@ class ClockFilter {
   std::int64_t first_arrival_ = 0;
   std::deque<Bucket> buckets_;
   double last_device_ = 0.0;
+  double floor_ = 0.0;       ///< smallest difference so far, but for the last few tenths of a ms
+  int quiet_ = 0;            ///< observations since it fell
   int jumped_ = 0;           ///< observations in a row that do not fit
   double slope_ = 0.0;       ///< of the line
   double offset_ = 0.0;      ///< of the line at device time 0

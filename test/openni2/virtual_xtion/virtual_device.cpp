@@ -61,8 +61,8 @@ VirtualDevice::VirtualDevice(const SharedControl& control, int number)
   }
   sensors_.push_back(
       {ONI_SENSOR_DEPTH, static_cast<int>(depth_modes_.size()), depth_modes_.data()});
-  while (control.get().decode_first && decoded_ + 1 < sequence_.size()) {
-    decodeAhead();
+  for (std::size_t i = 0; control.get().decode_first && i < sequence_.size(); ++i) {
+    sequence_.images(i);
   }
   thread_ = std::thread(&VirtualDevice::run, this);
 }
@@ -166,7 +166,8 @@ void VirtualDevice::run() {
     if (now >= timeOf(tick)) {
       take(tick, control_.get());
       deliverDue(hostNow());
-      decodeAhead();
+      // Between two images, so that none is late because it has to be decoded.
+      sequence_.images(std::min(last_frame_ + 1, sequence_.size() - 1));
       // A machine that was away for longer than an image takes loses the ones in between.
       tick = std::max(tick + 1, tickAt(hostNow()) + 1);
     }
@@ -187,7 +188,7 @@ void VirtualDevice::take(std::int64_t tick, const Control& control) {
       control.start == 0 ? 0
                          : std::clamp<std::int64_t>((tick - start_tick) / control.pace, 0, last));
   const ServedSequence::Images& images = sequence_.images(frame);
-  decoded_ = std::max(decoded_, frame);
+  last_frame_ = frame;
   const int index = static_cast<int>(tick - tickAt(power_on_));
   std::exponential_distribution<double> delay(1.0);
   for (const auto& [sensor, stream] : streams_) {
@@ -205,12 +206,6 @@ void VirtualDevice::take(std::int64_t tick, const Control& control) {
       logTruth(stamp, host, frame, control);
     }
   }
-}
-
-// Between two images, so that none is late because it has to be decoded.
-void VirtualDevice::decodeAhead() {
-  decoded_ = std::min(decoded_ + 1, sequence_.size() - 1);
-  sequence_.images(decoded_);
 }
 
 cv::Mat VirtualDevice::seen(OniSensorType sensor, VirtualStream& stream,

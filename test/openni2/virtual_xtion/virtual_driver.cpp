@@ -102,7 +102,10 @@ class VirtualDriver : public oni::driver::DriverBase {
     try {
       control_.set(readControl(path_));
     } catch (const std::exception& error) {
-      std::fprintf(stderr, "virtual_xtion: %s\n", error.what());
+      if (complaint_ != error.what()) {
+        complaint_ = error.what();
+        std::fprintf(stderr, "virtual_xtion: %s\n", error.what());
+      }
       return;
     }
     const Control control = control_.get();
@@ -127,6 +130,7 @@ class VirtualDriver : public oni::driver::DriverBase {
   const std::string path_;
   SharedControl control_;
   int plugged_ = 0;
+  std::string complaint_;  ///< last one on stderr
   std::mutex mutex_;
   std::condition_variable wake_;
   bool stop_ = false;
