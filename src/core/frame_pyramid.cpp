@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mivo/core/frame_pyramid.h"
 
+#include <opencv2/core.hpp>
+
 #include "mivo/core/depth_pyramid.h"
 
 namespace mivo {
@@ -38,6 +40,13 @@ void FramePyramid::build(const Frame& frame, const Parameters& parameters) {
 
 const cv::Mat& FramePyramid::informationImage(int level) const {
   return is_normalised_ ? normalised_[static_cast<std::size_t>(level)] : images_.level(level);
+}
+
+double FramePyramid::contrastInView() const {
+  cv::Scalar mean;
+  cv::Scalar deviation;
+  cv::meanStdDev(grey(num_levels_ - 1), mean, deviation);
+  return deviation[0];
 }
 
 float FramePyramid::depthAt(int x, int y) const {

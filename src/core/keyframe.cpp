@@ -25,6 +25,7 @@ void Keyframe::build(const FramePyramid& frame, const Camera& camera,
                      const Vector6& twist_per_period, double readout,
                      const Parameters& parameters) {
   twist_per_period_ = twist_per_period;
+  contrast_in_view_ = frame.contrastInView();
   const RowMotion rows{readout * twist_per_period};
   const int num_levels = frame.numLevels();
   levels_.resize(static_cast<std::size_t>(num_levels));

@@ -182,7 +182,11 @@ TrackingReason Odometry::Implementation::judge(const Frame& frame,
   if (!alignment.T_live_ref.matrix().allFinite() || !alignment.information.allFinite()) {
     return TrackingReason::kNotFinite;
   }
-  if (!alignment.sees_image && !alignment.sees_depth) return TrackingReason::kNoInformation;
+  // In the dark depth alone knows the way. But an image that shows something else is of another
+  // place, however well some of its planes fit.
+  if (!alignment.sees_image && !(alignment.sees_depth && alignment.is_blind)) {
+    return TrackingReason::kNoInformation;
+  }
   if (alignment.overlap < parameters_.lost_overlap) return TrackingReason::kNoOverlap;
   if (alignment.points < parameters_.lost_points) return TrackingReason::kTooFewPoints;
   if (!(poseCovariance(alignment).ldlt().isPositive()) || !poseCovariance(alignment).allFinite()) {

@@ -160,6 +160,8 @@ class LevelAligner {
 Alignment align(const AlignmentTask& task, const Parameters& parameters) {
   Alignment alignment;
   alignment.T_live_ref = task.T_live_ref;
+  alignment.is_blind =
+      task.live.contrastInView() < parameters.blind_contrast * task.keyframe.contrastInView();
   for (int l = task.keyframe.numLevels() - 1; l >= 0; --l) {
     LevelRecord& record = alignment.levels[static_cast<std::size_t>(alignment.num_levels++)];
     LevelAligner(task, l, parameters, alignment, record).run();

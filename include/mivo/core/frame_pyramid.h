@@ -36,6 +36,10 @@ class FramePyramid {
 
   const Frame& frame() const { return frame_; }
 
+  /// Standard deviation of the grey levels of the coarsest level, where noise is averaged out: how
+  /// much there is to see.
+  double contrastInView() const;
+
   /// Depth at a pixel of level 0, metres; 0 for no reading.
   float depthAt(int x, int y) const;
   /// Readings of level 0 as the kernels see them.

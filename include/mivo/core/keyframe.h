@@ -31,6 +31,9 @@ class Keyframe {
   void build(const FramePyramid& frame, const Camera& camera, const Vector6& twist_per_period,
              double readout, const Parameters& parameters);
 
+  /// See FramePyramid::contrastInView().
+  double contrastInView() const { return contrast_in_view_; }
+
   const Vector6& twistPerPeriod() const { return twist_per_period_; }
 
   int numLevels() const { return static_cast<int>(levels_.size()); }
@@ -51,6 +54,7 @@ class Keyframe {
   DepthPyramid depth_pyramid_;
   GeometricPoints geometric_points_;
   cv::Mat image_;
+  double contrast_in_view_ = 0.0;
   Vector6 twist_per_period_ = Vector6::Zero();
 };
 

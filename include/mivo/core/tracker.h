@@ -35,6 +35,7 @@ struct Alignment {
   int points = 0;                   ///< in view on the finest level
   double overlap = 0.0;             ///< fraction of the finest level's points in view
   bool sees_image = false;          ///< the images have something in common on the finest level
+  bool is_blind = false;            ///< the live image shows too little to be compared
   bool sees_depth = false;          ///< the geometric term took part there
   double mutual_information = 0.0;  ///< nats, on the finest level that uses it
   double residual_scale = 0.0;      ///< grey levels, on the finest SSD level
