@@ -21,6 +21,16 @@ constexpr double kSilence = 5.0;   // s without a pair before a warning
 constexpr double kIdle = 0.5;          // s
 constexpr double kWatchPeriod = 0.25;  // s
 
+// Where no frame may be lost, one topic may run ahead of the other by this many images at least.
+constexpr int kQueueWithoutLoss = 100;
+
+NodeParameters withLongQueue(NodeParameters parameters) {
+  if (!parameters.drop_frames) {
+    parameters.queue_size = std::max(parameters.queue_size, kQueueWithoutLoss);
+  }
+  return parameters;
+}
+
 std::uint32_t subscriberQueue(const NodeParameters& parameters) {
   return parameters.drop_frames ? static_cast<std::uint32_t>(parameters.queue_size)
                                 : 0;  // 0: no end
@@ -50,7 +60,7 @@ void forgetUntil(std::deque<ImageMessageConstPtr>& messages, const ros::Time& st
 
 FrameInput::FrameInput(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
                        const NodeParameters& parameters, PairCallback callback)
-    : parameters_(parameters),
+    : parameters_(withLongQueue(parameters)),
       callback_(std::move(callback)),
       colour_(node, topics::kColour, parameters.rgb_transport,
               static_cast<int>(subscriberQueue(parameters)),

@@ -169,7 +169,7 @@ void NodeTest::publish(int i, int at, double depth_delay) {
   publishClock(at);
   camera_info_.publish(calibration_);
   colour_.publish(next_colour_);
-  depth_.publish(next_depth_);
+  if (has_depth_) depth_.publish(next_depth_);
 }
 
 void NodeTest::track(int i, int at) {
@@ -198,6 +198,27 @@ bool NodeTest::waitFor(const std::function<bool()>& condition, std::chrono::mill
 bool NodeTest::holds(const std::function<bool()>& condition) {
   const std::lock_guard<std::mutex> lock(mutex_);
   return condition();
+}
+
+TrackingStatus NodeTest::statusOf(int at) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return statuses_[stampOf(at)];
+}
+
+nav_msgs::Odometry NodeTest::odometryOf(int at) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return odometries_[stampOf(at)];
+}
+
+int NodeTest::publishUntil(const std::function<bool()>& condition, int i, int at) {
+  constexpr int kMaxFrames = 100;
+  constexpr std::chrono::milliseconds kPatience(200);
+  for (int end = at + kMaxFrames; at < end; ++at) {
+    publish(i, at);
+    if (waitFor(condition, kPatience)) return at;
+  }
+  ADD_FAILURE() << "what the frames were published for has not come about";
+  return at;
 }
 
 double NodeTest::poseError(int at, const Eigen::Isometry3d& T_odom_base) {
@@ -231,12 +252,6 @@ diagnostic_msgs::DiagnosticStatus NodeTest::diagnosis(
   EXPECT_TRUE(waitFor([&] { return findDiagnosis(task, fits, found); }))
       << "last: " << found.message;
   return found;
-}
-
-bool NodeTest::hasDiagnosis(const std::string& task,
-                            const std::function<bool(const std::string&)>& fits) {
-  diagnostic_msgs::DiagnosticStatus found;
-  return waitFor([&] { return findDiagnosis(task, fits, found); }, std::chrono::milliseconds(1500));
 }
 
 }  // namespace mivo

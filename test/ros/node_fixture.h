@@ -64,6 +64,10 @@ class NodeTest : public ::testing::Test {
   void track(int i, int at);
   void track(int i) { track(i, i); }
 
+  /// Publishes frame i with the stamps from frame `at` on until the condition holds, for messages
+  /// on different connections overtake each other. Returns the last of the stamps.
+  int publishUntil(const std::function<bool()>& condition, int i, int at);
+
   /// Waits for what messages bring about; false when it has not come about in time.
   bool waitFor(const std::function<bool()>& condition,
                std::chrono::milliseconds time = std::chrono::seconds(10));
@@ -72,8 +76,14 @@ class NodeTest : public ::testing::Test {
   bool holds(const std::function<bool()>& condition);
 
   ros::Time stampOf(int i) const;
+  // To be asked by the conditions of waitFor and holds.
   bool hasStatus(int at) { return statuses_.count(stampOf(at)) > 0; }
   bool hasOdometry(int at) { return odometries_.count(stampOf(at)) > 0; }
+
+  bool isDone(int at) { return hasStatus(at) && hasOdometry(at); }
+  // What was published for frame `at`; empty messages when nothing was.
+  TrackingStatus statusOf(int at);
+  nav_msgs::Odometry odometryOf(int at);
 
   /// Distance and angle between the published pose of frame `at` and a pose, as one number.
   double poseError(int at, const Eigen::Isometry3d& T_odom_base);
@@ -82,8 +92,7 @@ class NodeTest : public ::testing::Test {
   /// fits. Returns the last one that was there.
   diagnostic_msgs::DiagnosticStatus diagnosis(const std::string& task,
                                               const std::function<bool(const std::string&)>& fits);
-  /// Whether there is one within a period of the diagnostics.
-  bool hasDiagnosis(const std::string& task, const std::function<bool(const std::string&)>& fits);
+  /// The same without waiting: a condition of waitFor.
   bool findDiagnosis(const std::string& task, const std::function<bool(const std::string&)>& fits,
                      diagnostic_msgs::DiagnosticStatus& found) const;
 
@@ -114,6 +123,7 @@ class NodeTest : public ::testing::Test {
   sensor_msgs::CameraInfo calibration_;
   sensor_msgs::Image next_colour_;  // of frame i: changed by tests that want them broken
   sensor_msgs::Image next_depth_;
+  bool has_depth_ = true;                // the depth image is published
   std::function<void()> spoil_ = [] {};  // called before the two are published
 
   std::mutex mutex_;  // guards what follows; locked while a condition is asked

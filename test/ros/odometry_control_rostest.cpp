@@ -32,12 +32,12 @@ TEST_F(NodeTest, ResetStartsAtTheOrigin) {
   ASSERT_TRUE(ros::service::call(privateName("reset"), reset));
   EXPECT_TRUE(reset.response.success);
   track(5);
-  ASSERT_TRUE(waitFor([&] { return hasOdometry(5); }));
+  ASSERT_TRUE(waitFor([&] { return isDone(5); }));
   EXPECT_LT(poseError(5, Eigen::Isometry3d::Identity()), 1e-9);
   track(6);
-  ASSERT_TRUE(waitFor([&] { return hasOdometry(6); }));
+  ASSERT_TRUE(waitFor([&] { return isDone(6); }));
   EXPECT_LT(poseError(6, truth(5).inverse() * truth(6)), kTolerance);
-  EXPECT_EQ(2U, statuses_[stampOf(6)].frames);
+  EXPECT_EQ(2U, statusOf(6).frames);
 }
 
 TEST_F(NodeTest, SetPoseMovesTheOdometryFrame) {
@@ -52,10 +52,10 @@ TEST_F(NodeTest, SetPoseMovesTheOdometryFrame) {
   ASSERT_TRUE(ros::service::call(privateName("set_pose"), call));
   ASSERT_TRUE(call.response.success) << call.response.message;
   track(5);
-  ASSERT_TRUE(waitFor([&] { return hasOdometry(5); }));
+  ASSERT_TRUE(waitFor([&] { return isDone(5); }));
   EXPECT_LT(poseError(5, wanted * truth(4).inverse() * truth(5)), kTolerance);
-  EXPECT_EQ(statuses_[stampOf(4)].segment, statuses_[stampOf(5)].segment);
-  EXPECT_EQ(statuses_[stampOf(4)].keyframes, statuses_[stampOf(5)].keyframes);
+  EXPECT_EQ(statusOf(4).segment, statusOf(5).segment);
+  EXPECT_EQ(statusOf(4).keyframes, statusOf(5).keyframes);
 
   call.request.pose = geometry_msgs::Pose();  // a quaternion of zeros
   ASSERT_TRUE(ros::service::call(privateName("set_pose"), call));
@@ -81,11 +81,11 @@ TEST_F(NodeTest, PauseStopsTracking) {
   ASSERT_TRUE(ros::service::call(privateName("pause"), pause));
   publish(1);
   diagnosis("tracking", [](const std::string& text) { return text == "paused"; });
-  EXPECT_FALSE(hasStatus(1));
+  EXPECT_FALSE(holds([&] { return hasStatus(1); }));
   pause.request.data = 0;
   ASSERT_TRUE(ros::service::call(privateName("pause"), pause));
   track(2);
-  EXPECT_EQ(2U, statuses_[stampOf(2)].frames);
+  EXPECT_EQ(2U, statusOf(2).frames);
 }
 
 TEST_F(NodeTest, TrajectoryIsSavedAndWrittenAsItGrows) {
@@ -143,7 +143,7 @@ TEST_F(NodeTest, LiveChangesAreTakenWholeOrNotAtAll) {
   EXPECT_FALSE(ros::service::call(privateName("set_parameters"), call));
   EXPECT_EQ(16, ros::param::param(privateName("mi_bins"), 0));
   track(2);
-  EXPECT_EQ(TrackingStatus::TRACKING, statuses_[stampOf(2)].state);
+  EXPECT_EQ(TrackingStatus::TRACKING, statusOf(2).state);
 }
 
 TEST_F(NodeTest, AllParametersInEffectCanBeReadBack) {

@@ -31,7 +31,7 @@ TEST_F(NodeTest, OdometryIsTheMotionOfTheBase) {
   ASSERT_TRUE(waitFor([&] { return odometries_.size() == 12U; }));
   for (int i = 0; i < 12; ++i) EXPECT_LT(poseError(i, truth(i)), kTolerance) << i;
 
-  const nav_msgs::Odometry& last = odometries_[stampOf(11)];
+  const nav_msgs::Odometry last = odometryOf(11);
   EXPECT_EQ(frame("odom"), last.header.frame_id);
   EXPECT_EQ(frame("base_link"), last.child_frame_id);
   const Vector6 twist = localCoordinates(truth(10).inverse() * truth(11)) * 30.0;
@@ -60,7 +60,7 @@ TEST_F(NodeTest, TransformPathAndStatusAgreeWithTheOdometry) {
       toIsometry(tf_.lookupTransform(frame("odom"), frame("base_link"), stampOf(5)).transform);
   EXPECT_LT(poseError(5, T), 1e-12);
 
-  const TrackingStatus status = statuses_[stampOf(5)];
+  const TrackingStatus status = statusOf(5);
   EXPECT_EQ(TrackingStatus::TRACKING, status.state);
   EXPECT_EQ("tracking", status.state_text);
   EXPECT_EQ(6U, status.frames);
@@ -74,7 +74,7 @@ TEST_F(NodeTest, TransformPathAndStatusAgreeWithTheOdometry) {
 
   // The path is sent at most five times a second: go on until it has come.
   int i = 6;
-  while (paths_.empty() && i < 60) track(i++);
+  while (holds([&] { return paths_.empty(); }) && i < 60) track(i++);
   ASSERT_TRUE(waitFor([&] { return !paths_.empty(); }));
   const std::lock_guard<std::mutex> lock(mutex_);
   EXPECT_EQ(frame("odom"), paths_.back().header.frame_id);
@@ -88,13 +88,13 @@ TEST_F(NodeTest, TransformPathAndStatusAgreeWithTheOdometry) {
 TEST_F(NodeTest, NothingIsPublishedBeforeTheCameraIsKnownOnTheBase) {
   load();
   for (int i = 0; i < 4; ++i) track(i);
-  EXPECT_TRUE(odometries_.empty());
+  EXPECT_TRUE(holds([&] { return odometries_.empty(); }));
   EXPECT_FALSE(tf_.canTransform(frame("odom"), frame("base_link"), ros::Time(0)));
   publishCameraOnBase();
   int i = 4;
-  while (odometries_.empty() && i < 60) track(i++);
+  while (holds([&] { return odometries_.empty(); }) && i < 60) track(i++);
   // What was tracked in between counts: odom is where the base was at the first frame.
-  ASSERT_TRUE(waitFor([&] { return hasOdometry(i - 1); }));
+  ASSERT_TRUE(waitFor([&] { return isDone(i - 1); }));
   EXPECT_LT(poseError(i - 1, truth(i - 1)), kTolerance);
 }
 
@@ -137,8 +137,8 @@ TEST_F(NodeTest, TwoDModeStaysInThePlane) {
   setParameter("two_d_mode", true);
   load();
   for (int i = 0; i < 5; ++i) track(i);
-  ASSERT_TRUE(waitFor([&] { return hasOdometry(4); }));
-  const nav_msgs::Odometry& last = odometries_[stampOf(4)];
+  ASSERT_TRUE(waitFor([&] { return isDone(4); }));
+  const nav_msgs::Odometry last = odometryOf(4);
   EXPECT_EQ(0.0, last.pose.pose.position.z);
   EXPECT_EQ(0.0, last.pose.pose.orientation.x);
   EXPECT_EQ(0.0, last.pose.pose.orientation.y);
@@ -152,14 +152,14 @@ TEST_F(NodeTest, LostFramesHaveAStatusButNoOdometry) {
   for (int i = 0; i < 4; ++i) track(i);
   spoil_ = [this] { blacken(); };
   track(4);
-  EXPECT_EQ(TrackingStatus::LOST, statuses_[stampOf(4)].state);
-  EXPECT_NE(TrackingStatus::REASON_NONE, statuses_[stampOf(4)].reason);
+  EXPECT_EQ(TrackingStatus::LOST, statusOf(4).state);
+  EXPECT_NE(TrackingStatus::REASON_NONE, statusOf(4).reason);
   diagnosis("tracking", [](const std::string& text) { return text.find("lost") == 0; });
   spoil_ = [] {};
   track(5);  // light again: found again
-  EXPECT_EQ(TrackingStatus::TRACKING, statuses_[stampOf(5)].state);
-  ASSERT_TRUE(waitFor([&] { return hasOdometry(5); }));
-  EXPECT_FALSE(hasOdometry(4));
+  EXPECT_EQ(TrackingStatus::TRACKING, statusOf(5).state);
+  ASSERT_TRUE(waitFor([&] { return isDone(5); }));
+  EXPECT_FALSE(holds([&] { return hasOdometry(4); }));
   EXPECT_LT(poseError(5, truth(5)), kTolerance);
 }
 
@@ -170,8 +170,8 @@ TEST_F(NodeTest, WhenAskedForLostFramesAreUncertain) {
   for (int i = 0; i < 3; ++i) track(i);
   spoil_ = [this] { blacken(); };
   track(3);
-  ASSERT_TRUE(waitFor([&] { return hasOdometry(3); }));
-  const Matrix6 covariance = toMatrix(odometries_[stampOf(3)].pose.covariance);
+  ASSERT_TRUE(waitFor([&] { return isDone(3); }));
+  const Matrix6 covariance = toMatrix(odometryOf(3).pose.covariance);
   EXPECT_GE(covariance.diagonal().minCoeff(), 1e3);
   EXPECT_LE(covariance.diagonal().maxCoeff(), 1e6);
 }

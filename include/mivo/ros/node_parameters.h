@@ -27,7 +27,8 @@ struct NodeParameters {
   int queue_size = 10;                  ///< messages that wait for their partner, per input
   bool approximate_sync = true;         ///< otherwise the stamps of colour and depth must be equal
   double sync_tolerance = 0.02;         ///< s, largest difference of the stamps of a pair
-  bool drop_frames = true;              ///< the newest frame wins; otherwise all wait (for bags)
+  bool drop_frames = true;  ///< the newest frame wins; otherwise all wait (for bags), and
+                            ///< queue_size is 100 at least
 
   int path_length = 5000;  ///< poses of the path and keyframes shown, the oldest are dropped
   int trajectory_length = 1000000;      ///< poses kept for save_trajectory, the oldest are dropped
