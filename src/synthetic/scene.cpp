@@ -73,7 +73,7 @@ Eigen::Vector2f Patch::size() const {
 }
 
 const std::vector<std::string>& sceneNames() {
-  static const std::vector<std::string> names{"room", "office", "corridor", "wall"};
+  static const std::vector<std::string> names{"room", "office", "corridor", "wall", "bare"};
   return names;
 }
 
@@ -87,8 +87,10 @@ Scene makeScene(const std::string& name, std::uint64_t seed) {
     scene = makeCorridor(seed);
   } else if (name == "wall") {
     scene = makeWall(seed);
+  } else if (name == "bare") {
+    scene = makeBare(seed);
   } else {
-    throw Error("unknown scene '" + name + "': expected room, office, corridor or wall");
+    throw Error("unknown scene '" + name + "': expected room, office, corridor, wall or bare");
   }
   scene.name = name;
   return scene;

@@ -7,6 +7,7 @@
 
 namespace mivo {
 
+Scene makeBare(std::uint64_t seed);
 Scene makeRoom(std::uint64_t seed);
 Scene makeOffice(std::uint64_t seed);
 Scene makeCorridor(std::uint64_t seed);

@@ -27,7 +27,7 @@ TEST(SceneLighting, IlluminanceAtTheRoomsCentreIsAsStated) {
     EXPECT_NEAR(measured("ramp", 10.0), 9.8F, 0.01F) << name;
     EXPECT_NEAR(measured("oscillating", 0.25), 32.7F, 0.01F) << name;
     EXPECT_NEAR(measured("oscillating", 0.75), 7.9F, 0.01F) << name;
-    EXPECT_NEAR(measured("darkness", 5.0), 1.2F, 0.001F) << name;
+    EXPECT_NEAR(measured("darkness", 5.0), 0.4F, 0.001F) << name;
     EXPECT_EQ(measured("black", 5.0), 0.0F) << name;
     EXPECT_NEAR(measured("left_right", 0.5), 40.0F, 0.01F) << name;
   }

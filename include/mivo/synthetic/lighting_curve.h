@@ -14,7 +14,7 @@ enum class LightingCurve {
   kStep,         ///< 61 lux, 9.8 lux from the middle on
   kRampStep,     ///< 61 lux falling to 9.8 lux until 70 % of the time, then 61 lux at once
   kOscillating,  ///< 7.9 to 32.7 lux, a sine of 1 Hz starting in the middle
-  kDarkness,     ///< 61 lux, 1.2 lux during the 20 frames in the middle
+  kDarkness,     ///< 61 lux, 0.4 lux during the 20 frames in the middle
   kBlack         ///< 61 lux, no light at all during the 20 frames in the middle
 };
 
@@ -31,7 +31,7 @@ constexpr double kDimLux = 9.8;
 constexpr double kOscillationLowLux = 7.9;
 constexpr double kOscillationHighLux = 32.7;
 constexpr double kOscillationHertz = 1.0;
-constexpr double kDarknessLux = 1.2;
+constexpr double kDarknessLux = 0.4;
 constexpr int kDarkFrames = 20;
 
 /// The curve of this name (constant, ramp, step, ramp_step, oscillating, darkness, black), or

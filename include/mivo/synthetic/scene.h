@@ -83,7 +83,7 @@ struct Scene {
   Eigen::Vector3f moving_lamp_reach = Eigen::Vector3f::Zero();
 };
 
-/// room, office, corridor, wall. Throws Error for another name, listing these.
+/// room, office, corridor, wall, bare. Throws Error for another name, listing these.
 Scene makeScene(const std::string& name, std::uint64_t seed);
 const std::vector<std::string>& sceneNames();
 
