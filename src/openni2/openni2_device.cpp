@@ -18,6 +18,16 @@ namespace {
 
 constexpr std::array<StreamKind, kStreamKinds> kKinds{StreamKind::kColor, StreamKind::kDepth};
 
+// Of the device without hardware that the SDK brings along.
+const std::string kDummyUri = "Dummy";
+
+// What belongs to the SDK.
+struct Handles {
+  std::shared_ptr<OpenNi2Library> library = OpenNi2Library::acquire();  // first: goes last
+  openni::Device device;
+  std::array<openni::VideoStream, kStreamKinds> streams;
+};
+
 openni::SensorType sensorOf(StreamKind kind) {
   return kind == StreamKind::kColor ? openni::SENSOR_COLOR : openni::SENSOR_DEPTH;
 }
@@ -35,8 +45,8 @@ std::optional<Value> readProperty(const openni::VideoStream& stream, int propert
 
 class OpenNi2Device::Implementation : private openni::OpenNI::DeviceDisconnectedListener {
  public:
-  explicit Implementation(const DeviceRequest& request) : library_(OpenNi2Library::acquire()) {
-    openAddress(*library_, request.address, device_);
+  explicit Implementation(const DeviceRequest& request) {
+    openAddress(*handles_->library, request.address, handles_->device);
     describe();
     // From here on the destructor does not run when something throws: members clean up themselves.
     createStreams(request);
@@ -48,8 +58,13 @@ class OpenNi2Device::Implementation : private openni::OpenNI::DeviceDisconnected
 
   ~Implementation() override {
     openni::OpenNI::removeDeviceDisconnectedListener(this);
-    for (openni::VideoStream& stream : streams_) {
+    for (openni::VideoStream& stream : handles_->streams) {
       stream.stop();
+    }
+    if (description_.uri == kDummyUri && has_streamed_) {
+      // The threads of its streams do not end with stop() but a frame later, and nobody waits for
+      // them: stream and driver must never go away, or they run in memory that is gone.
+      static_cast<void>(handles_.release());
     }
   }
 
@@ -66,6 +81,7 @@ class OpenNi2Device::Implementation : private openni::OpenNI::DeviceDisconnected
                                                mivo::toString(kind) + " stream: " + sdkError());
     }
     running = true;
+    has_streamed_ = true;
   }
 
   void stop(StreamKind kind) {
@@ -125,7 +141,9 @@ class OpenNi2Device::Implementation : private openni::OpenNI::DeviceDisconnected
   }
 
  private:
-  openni::VideoStream& stream(StreamKind kind) { return streams_[static_cast<std::size_t>(kind)]; }
+  openni::VideoStream& stream(StreamKind kind) {
+    return handles_->streams[static_cast<std::size_t>(kind)];
+  }
 
   void onDeviceDisconnected(const openni::DeviceInfo* info) override {
     if (description_.uri == info->getUri()) {
@@ -134,24 +152,24 @@ class OpenNi2Device::Implementation : private openni::OpenNI::DeviceDisconnected
   }
 
   void describe() {
-    const openni::DeviceInfo& info = device_.getDeviceInfo();
+    const openni::DeviceInfo& info = handles_->device.getDeviceInfo();
     description_.uri = info.getUri();
-    description_.is_recording = device_.isFile();
+    description_.is_recording = handles_->device.isFile();
     description_.name = description_.is_recording
                             ? "Recording"
                             : oneLine(std::string(info.getVendor()) + " " + info.getName());
-    description_.serial = serialNumber(device_);
+    description_.serial = serialNumber(handles_->device);
   }
 
   void createStreams(const DeviceRequest& request) {
     for (StreamKind kind : kKinds) {
       const bool is_color = kind == StreamKind::kColor;
-      if (!device_.hasSensor(sensorOf(kind))) {
+      if (!handles_->device.hasSensor(sensorOf(kind))) {
         throw DeviceError(is_color ? DeviceFault::kNoColor : DeviceFault::kNoDepth,
                           description_.name + " has no " + mivo::toString(kind) + " stream");
       }
       openni::VideoStream& stream = this->stream(kind);
-      if (stream.create(device_, sensorOf(kind)) != openni::STATUS_OK) {
+      if (stream.create(handles_->device, sensorOf(kind)) != openni::STATUS_OK) {
         throw DeviceError(DeviceFault::kUsb, description_.name + " does not open its " +
                                                  mivo::toString(kind) + " stream: " + sdkError());
       }
@@ -174,7 +192,7 @@ class OpenNi2Device::Implementation : private openni::OpenNI::DeviceDisconnected
   void setRegistration(const DeviceRequest& request) {
     const auto mode = request.registration ? openni::IMAGE_REGISTRATION_DEPTH_TO_COLOR
                                            : openni::IMAGE_REGISTRATION_OFF;
-    if (device_.getImageRegistrationMode() == mode && request.registration) {
+    if (handles_->device.getImageRegistrationMode() == mode && request.registration) {
       return;
     }
     if (description_.is_recording) {
@@ -184,14 +202,15 @@ class OpenNi2Device::Implementation : private openni::OpenNI::DeviceDisconnected
       }
       return;
     }
-    if (request.registration && (!device_.isImageRegistrationModeSupported(mode) ||
-                                 device_.setImageRegistrationMode(mode) != openni::STATUS_OK ||
-                                 device_.getImageRegistrationMode() != mode)) {
+    if (request.registration &&
+        (!handles_->device.isImageRegistrationModeSupported(mode) ||
+         handles_->device.setImageRegistrationMode(mode) != openni::STATUS_OK ||
+         handles_->device.getImageRegistrationMode() != mode)) {
       throw DeviceError(DeviceFault::kNoRegistration,
                         description_.name + " cannot register depth to colour");
     }
-    if (!request.registration && device_.isImageRegistrationModeSupported(mode)) {
-      device_.setImageRegistrationMode(mode);
+    if (!request.registration && handles_->device.isImageRegistrationModeSupported(mode)) {
+      handles_->device.setImageRegistrationMode(mode);
     }
   }
 
@@ -199,16 +218,16 @@ class OpenNi2Device::Implementation : private openni::OpenNI::DeviceDisconnected
     if (description_.is_recording) {
       return;
     }
-    const openni::Status status = device_.setDepthColorSyncEnabled(request.synchronise);
+    const openni::Status status = handles_->device.setDepthColorSyncEnabled(request.synchronise);
     if (request.synchronise &&
-        (status != openni::STATUS_OK || !device_.getDepthColorSyncEnabled())) {
+        (status != openni::STATUS_OK || !handles_->device.getDepthColorSyncEnabled())) {
       note(description_.name +
            " does not expose colour and depth together; they are paired by time alone");
     }
   }
 
   void setPlayback(const DeviceRequest& request) {
-    if (openni::PlaybackControl* playback = device_.getPlaybackControl()) {
+    if (openni::PlaybackControl* playback = handles_->device.getPlaybackControl()) {
       playback->setSpeed(1.0F);
       playback->setRepeatEnabled(request.repeat);
     }
@@ -229,10 +248,9 @@ class OpenNi2Device::Implementation : private openni::OpenNI::DeviceDisconnected
 
   void note(const std::string& line) { description_.notes.push_back(line); }
 
-  std::shared_ptr<OpenNi2Library> library_;  // first: goes last
-  openni::Device device_;
-  std::array<openni::VideoStream, kStreamKinds> streams_;
+  std::unique_ptr<Handles> handles_ = std::make_unique<Handles>();
   std::array<bool, kStreamKinds> running_{};
+  bool has_streamed_ = false;
   std::atomic<bool> connected_{true};
   DeviceDescription description_;
 };

@@ -8,75 +8,12 @@
 #include <algorithm>
 #include <optional>
 
-#include "mivo/openni2/device_error.h"
-#include "virtual_xtion_fixture.h"
+#include "openni2_device_fixture.h"
 
 namespace mivo {
 namespace {
 
 using std::chrono::milliseconds;
-
-class OpenNi2DeviceTest : public VirtualXtionTest {
- protected:
-  struct Received {
-    cv::Mat image;
-    std::uint64_t stamp;
-    int index;
-    double depth_unit;
-  };
-
-  static DeviceRequest request(const std::string& address) {
-    DeviceRequest request;
-    request.address = address;
-    return request;
-  }
-
-  static std::optional<DeviceError> faultOf(const DeviceRequest& request) {
-    try {
-      OpenNi2Device::open(request);
-    } catch (const DeviceError& error) {
-      return error;
-    }
-    return std::nullopt;
-  }
-
-  static void expectFault(const DeviceRequest& request, DeviceFault fault,
-                          const std::string& part) {
-    const auto error = faultOf(request);
-    ASSERT_TRUE(error.has_value()) << "opened '" << request.address << "'";
-    EXPECT_EQ(error->fault(), fault) << error->what();
-    EXPECT_NE(std::string(error->what()).find(part), std::string::npos) << error->what();
-    EXPECT_NE(std::string(error->what()).find(adviceFor(fault)), std::string::npos);
-  }
-
-  // Reads until both streams have given so many images.
-  static std::map<StreamKind, std::vector<Received>> receive(CameraDevice& device,
-                                                             std::size_t count) {
-    std::map<StreamKind, std::vector<Received>> received;
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
-    while ((received[StreamKind::kColor].size() < count ||
-            received[StreamKind::kDepth].size() < count) &&
-           std::chrono::steady_clock::now() < end) {
-      device.read(milliseconds(200), [&](const ImageView& view) {
-        const int type = view.kind == StreamKind::kColor ? CV_8UC3 : CV_16UC1;
-        const cv::Mat image(view.height, view.width, type, const_cast<std::uint8_t*>(view.data),
-                            view.stride);
-        received[view.kind].push_back(
-            {image.clone(), view.device_stamp, view.index, view.depth_unit});
-      });
-    }
-    return received;
-  }
-
-  static void startBoth(CameraDevice& device) {
-    device.start(StreamKind::kColor);
-    device.start(StreamKind::kDepth);
-  }
-
-  static bool same(const cv::Mat& a, const cv::Mat& b) {
-    return a.size() == b.size() && a.type() == b.type() && cv::norm(a, b, cv::NORM_INF) == 0.0;
-  }
-};
 
 TEST_F(OpenNi2DeviceTest, OpensByEveryKindOfAddress) {
   control("devices", 2);
@@ -199,22 +136,6 @@ TEST_F(OpenNi2DeviceTest, ModeThatIsNotOffered) {
   other.width = 320;
   other.height = 240;
   expectFault(other, DeviceFault::kNoMode, "640x480 at 30 Hz, RGB888");
-}
-
-TEST_F(OpenNi2DeviceTest, DummyDevice) {
-  expectFault(request("Dummy"), DeviceFault::kNoMode, "320x240");
-  DeviceRequest small = request("Dummy");
-  small.width = 320;
-  small.height = 240;
-  expectFault(small, DeviceFault::kNoRegistration, "cannot register");
-  small.registration = false;
-  const auto device = OpenNi2Device::open(small);
-  EXPECT_FALSE(device->description().has_camera_settings);
-  EXPECT_FALSE(device->description().notes.empty());
-  EXPECT_EQ(device->description().color_field_of_view, 0.0);
-  startBoth(*device);
-  const auto received = receive(*device, 2);
-  EXPECT_EQ(received.at(StreamKind::kColor).front().image.size(), cv::Size(320, 240));
 }
 
 TEST_F(OpenNi2DeviceTest, SettingsHoldOnceTheFirstImageCame) {
