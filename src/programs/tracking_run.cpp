@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "programs/tracking_run.h"
 
-#include <ctime>
 #include <iostream>
 #include <memory>
 #include <opencv2/core/utility.hpp>
 
+#include "mivo/core/cpu_clock.h"
 #include "mivo/core/error.h"
 #include "mivo/core/odometry.h"
 #include "mivo/evaluation/statistics.h"
@@ -17,13 +17,6 @@ namespace mivo {
 namespace {
 
 constexpr std::size_t kToldFaults = 10;  // skipped frames told one by one; the rest only count
-
-/// Processor time of all threads of the process, milliseconds.
-double cpuMilliseconds() {
-  std::timespec time{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
-}
 
 void count(const TrackingResult& result, TrackingSummary& summary) {
   ++summary.frames;
@@ -79,9 +72,9 @@ TrackingSummary trackFrames(FrameSource& source, const TrackingOptions& options)
       progress.advance();
       continue;
     }
-    const double start = cpuMilliseconds();
+    const double start = processMilliseconds();
     const TrackingResult& result = process(odometry, frame, disturbance);
-    cpu_times.push_back(cpuMilliseconds() - start);
+    cpu_times.push_back(processMilliseconds() - start);
     trajectory.write({frame.stamp, result.T_odom_camera});
     if (statistics) statistics->write(frame.stamp, result, cpu_times.back());
     count(result, summary);
