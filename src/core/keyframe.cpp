@@ -9,7 +9,7 @@ namespace {
 
 std::vector<Pixel> selectPoints(const cv::Mat& image, const cv::Mat& depth, bool is_coarsest,
                                 const Parameters& parameters) {
-  if (is_coarsest) return selectAll(depth);
+  if (is_coarsest || parameters.point_fraction == 1.0) return selectAll(depth);
   const double wanted = parameters.point_fraction * static_cast<double>(image.total());
   SelectionLimits limits{};
   limits.num_points = std::max(parameters.min_points, static_cast<int>(std::lround(wanted)));

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mivo/core/keyframe.h"
+
+#include <gtest/gtest.h>
+
+#include "support/scene.h"
+
+namespace mivo {
+namespace {
+
+Keyframe wallKeyframe(const Parameters& parameters) {
+  const Camera camera = testing::smallCamera();
+  FramePyramid pyramid;
+  pyramid.build(testing::render(testing::wallScene(), camera, Eigen::Isometry3d::Identity()),
+                parameters);
+  Keyframe keyframe;
+  keyframe.build(pyramid, camera, Vector6::Zero(), 0.0, parameters);
+  return keyframe;
+}
+
+// Second derivatives need the eight neighbours: the border has none.
+std::size_t innerPixels(const Camera& camera) {
+  return static_cast<std::size_t>((camera.width - 2) * (camera.height - 2));
+}
+
+TEST(KeyframeTest, TheCoarsestLevelUsesEveryPixelWithDepth) {
+  const Keyframe keyframe = wallKeyframe({});
+  const int coarsest = keyframe.numLevels() - 1;
+  ASSERT_GT(coarsest, 0);
+  EXPECT_EQ(keyframe.level(coarsest).points.size(),
+            innerPixels(testing::smallCamera().atLevel(coarsest)));
+  EXPECT_LT(keyframe.level(0).points.size(), innerPixels(testing::smallCamera()));
+}
+
+TEST(KeyframeTest, WithAFractionOfOneAllLevelsDo) {
+  Parameters parameters;
+  parameters.point_fraction = 1.0;
+  const Keyframe keyframe = wallKeyframe(parameters);
+  for (int l = 0; l < keyframe.numLevels(); ++l) {
+    EXPECT_EQ(keyframe.level(l).points.size(), innerPixels(testing::smallCamera().atLevel(l)))
+        << "level " << l;
+  }
+}
+
+}  // namespace
+}  // namespace mivo
