@@ -7,16 +7,19 @@
 namespace mivo {
 namespace {
 
-std::vector<Pixel> selectPoints(const cv::Mat& image, const cv::Mat& depth, bool is_coarsest,
-                                const Parameters& parameters) {
-  if (is_coarsest || parameters.point_fraction == 1.0) return selectAll(depth);
+void selectPoints(const cv::Mat& image, const cv::Mat& depth, bool is_coarsest,
+                  const Parameters& parameters, std::vector<Pixel>& pixels) {
+  if (is_coarsest || parameters.point_fraction == 1.0) {
+    selectAll(depth, pixels);
+    return;
+  }
   const double wanted = parameters.point_fraction * static_cast<double>(image.total());
   SelectionLimits limits{};
   limits.num_points = std::max(parameters.min_points, static_cast<int>(std::lround(wanted)));
   limits.min_gradient = static_cast<float>(parameters.min_gradient);
   limits.cell_size = parameters.point_cell_size;
   limits.depth_edge_ratio = static_cast<float>(parameters.depth_edge_ratio);
-  return selectSalient(image, depth, limits);
+  selectSalient(image, depth, limits, pixels);
 }
 
 }  // namespace
@@ -43,9 +46,8 @@ void Keyframe::build(const FramePyramid& frame, const Camera& camera,
         uses_mi ? frame.informationImage(l) : frame.grey(l),
         !uses_mi && frame.isNormalised() ? &frame.contrast().level(l) : nullptr};
     level.points.level = l;
-    makeReferencePoints(image, depth, camera.atLevel(l), rows,
-                        selectPoints(frame.grey(l), depth, is_coarsest, parameters), uses_mi,
-                        level.points);
+    selectPoints(frame.grey(l), depth, is_coarsest, parameters, level.points.pixels);
+    makeReferencePoints(image, depth, camera.atLevel(l), rows, uses_mi, level.points);
     if (uses_mi) {
       makeMiReference(level.points, frame.informationRange(l), parameters, level.mi);
     }

@@ -103,10 +103,10 @@ PointDerivatives pointDerivatives(const Eigen::Vector3d& point,
 }
 
 void makeReferencePoints(const ReferenceImage& image, const cv::Mat& depth, const Camera& camera,
-                         const RowMotion& rows, const std::vector<Pixel>& pixels,
-                         bool with_second_derivative, ReferencePoints& points) {
+                         const RowMotion& rows, bool with_second_derivative,
+                         ReferencePoints& points) {
+  const std::vector<Pixel>& pixels = points.pixels;
   const std::size_t n = pixels.size();
-  points.pixels = pixels;
   resize(n, with_second_derivative, points);
   points.pixel_motion.setZero();
   const Eigen::Vector2d focal(camera.fx, camera.fy);

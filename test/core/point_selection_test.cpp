@@ -25,6 +25,19 @@ SelectionLimits limits(int num_points) {
   return {num_points, 1.0F, 16, 0.06F};
 }
 
+std::vector<Pixel> salientPixels(const cv::Mat& image, const cv::Mat& depth,
+                                 const SelectionLimits& limits) {
+  std::vector<Pixel> pixels = {{1, 1}};  // what was there before is gone
+  selectSalient(image, depth, limits, pixels);
+  return pixels;
+}
+
+std::vector<Pixel> allPixels(const cv::Mat& depth) {
+  std::vector<Pixel> pixels = {{1, 1}};
+  selectAll(depth, pixels);
+  return pixels;
+}
+
 cv::Mat noiseImage(std::uint64_t seed) {
   testing::Random random(seed);
   cv::Mat image(kHeight, kWidth, CV_32FC1);
@@ -63,7 +76,7 @@ TEST(SelectSalientTest, AnEdgeBecomesAThinLine) {
           128.0 + 100.0 * std::tanh(0.4 * (normal.dot(p) - place)), {0, 0}, {}};
     };
     const cv::Mat image = testing::rasterised(step, kWidth, kHeight);
-    const std::vector<Pixel> pixels = selectSalient(image, flatDepth(), limits(100000));
+    const std::vector<Pixel> pixels = salientPixels(image, flatDepth(), limits(100000));
     ASSERT_GT(pixels.size(), 30U) << angle;
     for (const Pixel& pixel : pixels) {
       const double distance = std::abs(normal.dot(Eigen::Vector2d(pixel.x, pixel.y)) - place);
@@ -75,7 +88,7 @@ TEST(SelectSalientTest, AnEdgeBecomesAThinLine) {
 TEST(SelectSalientTest, OfTwoEquallySteepPixelsExactlyOneIsTaken) {
   cv::Mat image(kHeight, kWidth, CV_32FC1, cv::Scalar(20.0F));
   image.colRange(40, kWidth) = 220.0F;  // gradient 100 in the columns 39 and 40
-  const std::vector<Pixel> pixels = selectSalient(image, flatDepth(), limits(100000));
+  const std::vector<Pixel> pixels = salientPixels(image, flatDepth(), limits(100000));
   EXPECT_EQ(pixels.size(), static_cast<std::size_t>(kHeight - 4));
   std::set<int> columns;
   for (const Pixel& pixel : pixels) columns.insert(pixel.x);
@@ -84,7 +97,7 @@ TEST(SelectSalientTest, OfTwoEquallySteepPixelsExactlyOneIsTaken) {
 
 TEST(SelectSalientTest, NoMoreThanAskedForAndTheSameFromEveryFullCell) {
   for (const int wanted : {24, 100, 250}) {
-    const std::vector<Pixel> pixels = selectSalient(noiseImage(1), flatDepth(), limits(wanted));
+    const std::vector<Pixel> pixels = salientPixels(noiseImage(1), flatDepth(), limits(wanted));
     const auto counts = countsPerCell(pixels, 16);
     EXPECT_EQ(counts.size(), 24U);
     EXPECT_LE(pixels.size(), static_cast<std::size_t>(wanted));
@@ -95,7 +108,7 @@ TEST(SelectSalientTest, NoMoreThanAskedForAndTheSameFromEveryFullCell) {
 TEST(SelectSalientTest, WhatEmptyCellsDoNotUseGoesToTheOthers) {
   cv::Mat image = noiseImage(2);
   image.colRange(0, 48) = 100.0F;  // nothing to choose in the left half
-  const std::vector<Pixel> pixels = selectSalient(image, flatDepth(), limits(240));
+  const std::vector<Pixel> pixels = salientPixels(image, flatDepth(), limits(240));
   EXPECT_LE(pixels.size(), 240U);
   // The 12 cells on the right share what 24 would, up to one point per cell.
   EXPECT_GT(pixels.size(), 240U - 15U);
@@ -103,8 +116,8 @@ TEST(SelectSalientTest, WhatEmptyCellsDoNotUseGoesToTheOthers) {
 
 TEST(SelectSalientTest, EachCellGivesItsSteepestPoints) {
   const cv::Mat image = noiseImage(3);
-  const std::vector<Pixel> all = selectSalient(image, flatDepth(), limits(100000));
-  const std::vector<Pixel> some = selectSalient(image, flatDepth(), limits(120));
+  const std::vector<Pixel> all = salientPixels(image, flatDepth(), limits(100000));
+  const std::vector<Pixel> some = salientPixels(image, flatDepth(), limits(120));
   std::map<std::pair<int, int>, std::vector<float>> strengths;
   for (const Pixel& p : all) {
     strengths[{p.x / 16, p.y / 16}].push_back(squaredGradient(image, p.x, p.y));
@@ -118,29 +131,53 @@ TEST(SelectSalientTest, EachCellGivesItsSteepestPoints) {
   }
 }
 
+// Candidates of each cell sorted outright. Grey levels of few steps make many equal gradients.
+TEST(SelectSalientTest, OfEquallySteepPixelsTheEarlierOnesAreTaken) {
+  cv::Mat image;
+  noiseImage(8).convertTo(image, CV_8UC1, 4.0 / 255.0);
+  const std::vector<Pixel> all = salientPixels(image, flatDepth(), limits(100000));
+  cv::Mat grey;
+  image.convertTo(grey, CV_32FC1);
+  std::map<std::pair<int, int>, std::vector<Pixel>> cells;
+  for (const Pixel& p : all) cells[{p.x / 16, p.y / 16}].push_back(p);
+  std::set<std::pair<int, int>> expected;
+  for (auto& entry : cells) {
+    std::stable_sort(entry.second.begin(), entry.second.end(), [&](const Pixel& a, const Pixel& b) {
+      return squaredGradient(grey, a.x, a.y) > squaredGradient(grey, b.x, b.y);
+    });
+    ASSERT_GT(entry.second.size(), 5U);
+    for (std::size_t i = 0; i < 5; ++i) expected.insert({entry.second[i].x, entry.second[i].y});
+  }
+  std::set<std::pair<int, int>> actual;
+  for (const Pixel& p : salientPixels(image, flatDepth(), limits(5 * 24))) {
+    actual.insert({p.x, p.y});
+  }
+  EXPECT_EQ(actual, expected);
+}
+
 TEST(SelectSalientTest, WeakGradientsAreNoPoints) {
   const cv::Mat image =
       testing::rasterised(testing::waveImage(128.0, {{3.0, {0.25, 0.0}, 0.0}}), kWidth, kHeight);
   // The gradient's amplitude is 3 * sin(0.25) = 0.742.
   SelectionLimits low = limits(100000);
   low.min_gradient = 0.70F;
-  EXPECT_FALSE(selectSalient(image, flatDepth(), low).empty());
+  EXPECT_FALSE(salientPixels(image, flatDepth(), low).empty());
   low.min_gradient = 0.76F;
-  EXPECT_TRUE(selectSalient(image, flatDepth(), low).empty());
+  EXPECT_TRUE(salientPixels(image, flatDepth(), low).empty());
 }
 
 TEST(SelectSalientTest, AConstantImageHasNoPoints) {
   SelectionLimits none = limits(100);
   none.min_gradient = 0.0F;
   const cv::Mat image(kHeight, kWidth, CV_32FC1, cv::Scalar(77.0F));
-  EXPECT_TRUE(selectSalient(image, flatDepth(), none).empty());
+  EXPECT_TRUE(salientPixels(image, flatDepth(), none).empty());
 }
 
 TEST(SelectSalientTest, NoPointIsOnADepthEdgeOrAHole) {
   cv::Mat depth = flatDepth();
   depth.colRange(50, kWidth) = 1.0F;
   depth(cv::Rect(10, 10, 9, 7)) = 0.0F;
-  const std::vector<Pixel> pixels = selectSalient(noiseImage(4), depth, limits(100000));
+  const std::vector<Pixel> pixels = salientPixels(noiseImage(4), depth, limits(100000));
   ASSERT_GT(pixels.size(), 200U);
   for (const Pixel& pixel : pixels) {
     EXPECT_TRUE(isSmoothDepth(depth, pixel.x, pixel.y, 0.06F));
@@ -149,7 +186,7 @@ TEST(SelectSalientTest, NoPointIsOnADepthEdgeOrAHole) {
 }
 
 TEST(SelectSalientTest, PointsKeepTwoPixelsFromTheBorderAndComeInReadingOrder) {
-  const std::vector<Pixel> pixels = selectSalient(noiseImage(5), flatDepth(), limits(300));
+  const std::vector<Pixel> pixels = salientPixels(noiseImage(5), flatDepth(), limits(300));
   int before = -1;
   for (const Pixel& pixel : pixels) {
     EXPECT_GE(pixel.x, 2);
@@ -162,18 +199,18 @@ TEST(SelectSalientTest, PointsKeepTwoPixelsFromTheBorderAndComeInReadingOrder) {
 }
 
 TEST(SelectSalientTest, TheSameImageGivesTheSamePoints) {
-  const std::vector<Pixel> first = selectSalient(noiseImage(6), flatDepth(), limits(300));
-  EXPECT_TRUE(isSame(first, selectSalient(noiseImage(6), flatDepth(), limits(300))));
-  EXPECT_FALSE(isSame(first, selectSalient(noiseImage(7), flatDepth(), limits(300))));
+  const std::vector<Pixel> first = salientPixels(noiseImage(6), flatDepth(), limits(300));
+  EXPECT_TRUE(isSame(first, salientPixels(noiseImage(6), flatDepth(), limits(300))));
+  EXPECT_FALSE(isSame(first, salientPixels(noiseImage(7), flatDepth(), limits(300))));
 }
 
 TEST(SelectAllTest, EveryPixelWithDepthButTheBorder) {
-  EXPECT_EQ(selectAll(flatDepth()).size(), static_cast<std::size_t>((kWidth - 2) * (kHeight - 2)));
+  EXPECT_EQ(allPixels(flatDepth()).size(), static_cast<std::size_t>((kWidth - 2) * (kHeight - 2)));
   cv::Mat depth = flatDepth();
   depth.at<float>(20, 30) = 0.0F;
-  EXPECT_EQ(selectAll(depth).size(), static_cast<std::size_t>((kWidth - 2) * (kHeight - 2) - 1));
-  for (const Pixel& pixel : selectAll(depth)) EXPECT_FALSE(pixel.x == 30 && pixel.y == 20);
-  EXPECT_TRUE(selectAll(cv::Mat(2, 2, CV_32FC1, cv::Scalar(1.0F))).empty());
+  EXPECT_EQ(allPixels(depth).size(), static_cast<std::size_t>((kWidth - 2) * (kHeight - 2) - 1));
+  for (const Pixel& pixel : allPixels(depth)) EXPECT_FALSE(pixel.x == 30 && pixel.y == 20);
+  EXPECT_TRUE(allPixels(cv::Mat(2, 2, CV_32FC1, cv::Scalar(1.0F))).empty());
 }
 
 }  // namespace

@@ -35,7 +35,8 @@ cv::Mat slopingDepthImage(const Camera& camera) {
 ReferencePoints makePoints(const cv::Mat& image, const Camera& camera,
                            const std::vector<Pixel>& pixels, const RowMotion& rows = {}) {
   ReferencePoints points;
-  makeReferencePoints({image}, slopingDepthImage(camera), camera, rows, pixels, true, points);
+  points.pixels = pixels;
+  makeReferencePoints({image}, slopingDepthImage(camera), camera, rows, true, points);
   return points;
 }
 
@@ -210,8 +211,8 @@ TEST(ReferencePointsTest, NormalisedPointsAreInGreyLevelsAgain) {
   map.constant = 6.0F;
   const ReferencePoints raw = makePoints(raster, camera, kPixels);
   ReferencePoints normalised;
-  makeReferencePoints({raster, &map}, slopingDepthImage(camera), camera, {}, kPixels, false,
-                      normalised);
+  normalised.pixels = kPixels;
+  makeReferencePoints({raster, &map}, slopingDepthImage(camera), camera, {}, false, normalised);
   for (std::size_t i = 0; i < raw.size(); ++i) {
     EXPECT_FLOAT_EQ(normalised.contrast[i], 30.0F);
     EXPECT_NEAR(normalised.intensity[i], raw.intensity[i] - 100.0F, 1e-4);

@@ -22,12 +22,12 @@ struct SelectionLimits {
 /// The salient pixels of a level (section III-C): gradient above a threshold, maximal along its
 /// direction, on a smooth surface with depth, and spread over the image: each cell gives its
 /// strongest ones, as many as are needed to fill the number. Row by row, left to right.
-/// @param image CV_32FC1 grey, @param depth CV_32FC1 metres (0: none), same size
-std::vector<Pixel> selectSalient(const cv::Mat& image, const cv::Mat& depth,
-                                 const SelectionLimits& limits);
+/// @param image CV_32FC1 or CV_8UC1 grey, @param depth CV_32FC1 metres (0: none), same size
+void selectSalient(const cv::Mat& image, const cv::Mat& depth, const SelectionLimits& limits,
+                   std::vector<Pixel>& pixels);
 
 /// Every pixel with depth that has eight neighbours: for the coarsest level, where a smooth surface
 /// around each would leave too few.
-std::vector<Pixel> selectAll(const cv::Mat& depth);
+void selectAll(const cv::Mat& depth, std::vector<Pixel>& pixels);
 
 }  // namespace mivo

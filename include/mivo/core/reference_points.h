@@ -50,13 +50,13 @@ struct ReferenceImage {
   const ContrastMap* contrast = nullptr;  ///< to normalise it by; null: taken as it is
 };
 
-/// Fills the arrays for the chosen pixels of one level; each has depth and lies at least one pixel
-/// from the border. @param depth CV_32FC1 metres, @param camera both of this level.
+/// Fills the arrays for the pixels of points.pixels, which have depth and lie at least one pixel
+/// from the border of their level. @param depth CV_32FC1 metres, @param camera both of this level.
 /// @param rows motion of the keyframe's camera while its rows were read: points are moved to where
 /// they were when the middle row was read.
 void makeReferencePoints(const ReferenceImage& image, const cv::Mat& depth, const Camera& camera,
-                         const RowMotion& rows, const std::vector<Pixel>& pixels,
-                         bool with_second_derivative, ReferencePoints& points);
+                         const RowMotion& rows, bool with_second_derivative,
+                         ReferencePoints& points);
 
 /// First and second derivative of the intensity at one point with respect to the increment, from
 /// those with respect to undistorted normalised coordinates (X / Z, Y / Z).
