@@ -55,7 +55,9 @@ void run(int argc, char** argv) {
                          "keyframe.png, depth.png, points.png, live.png, residual.png.");
   line.argument("SEQUENCE", &sequence, "sequence folder");
   line.argument("FOLDER", &folder, "where the pictures go");
-  line.options()("frame", po::value(&number)->value_name("N"), "number of the frame (required)")(
+  line.options()(
+      "frame", po::value(&number)->value_name("N"),
+      "number of the frame, or if that becomes a keyframe itself, the next one (required)")(
       "force", po::bool_switch(&force), "replace existing pictures");
   parameter_options.declare(line);
   if (!line.parse(argc, argv)) return;
@@ -67,27 +69,22 @@ void run(int argc, char** argv) {
   mivo::Frame frame;
   mivo::Frame keyframe_frame;
   std::string fault;
-  bool becomes_keyframe = false;
-  for (long long i = 0; i <= number;) {
+  long long i = 0;
+  for (bool found = false; !found;) {
     const auto status = reader.next(frame, fault);
     if (status == mivo::FrameSource::Status::kEnd) {
-      throw mivo::Error(sequence + " ends before frame " + std::to_string(number));
+      throw mivo::Error(sequence + " has no frame from number " + std::to_string(number) +
+                        " on that is tracked against an earlier one");
     }
     if (status == mivo::FrameSource::Status::kSkipped) continue;
-    // A frame becomes the keyframe after it was tracked: the last one is shown against the one it
-    // was tracked with.
-    becomes_keyframe = odometry.process(frame).new_keyframe;
-    if (becomes_keyframe && i < number) {
+    if (odometry.process(frame).new_keyframe) {
       keyframe_frame = frame;
       keyframe_frame.image = frame.image.clone();
       keyframe_frame.depth = frame.depth.clone();
+    } else {
+      found = i >= number && odometry.hasKeyframe();
     }
-    ++i;
-  }
-  if (keyframe_frame.image.empty()) throw mivo::Error(sequence + ": no frame became a keyframe");
-  if (becomes_keyframe) {
-    throw mivo::Error("frame " + std::to_string(number) +
-                      " became a keyframe itself: choose another --frame");
+    if (!found) ++i;
   }
 
   mivo::FramePyramid pyramid;
@@ -104,7 +101,8 @@ void run(int argc, char** argv) {
   write("points.png", drawPoints(keyframe));
   write("live.png", frame.image);
   write("residual.png", odometry.residualImage());
-  std::cout << "state: " << mivo::toString(odometry.result().state) << "\n"
+  std::cout << "frame: " << i << "\n"
+            << "state: " << mivo::toString(odometry.result().state) << "\n"
             << "points: " << keyframe.numPoints() << "\n";
 }
 

@@ -1,0 +1,158 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The jobs of each experiment, and where their results lie in the output folder."""
+
+import os
+
+import plan as plans
+from jobs import Job
+
+FIRST = ["--reference", "first"]
+FIRST_SETTINGS = ["--set", "keyframe_policy=first", "--set", "motion_model=constant_pose"]
+DISTURB = ["--disturb", "0.005", "0.005", "--seed", "1"]  # m, rad
+FOLDERS = ["convergence", "optimiser", "pictures", "runs", "sequences"]
+
+
+class Experiments:
+    """All jobs of a plan, and the paths of what they leave behind."""
+
+    def __init__(self, plan, programs, recordings):
+        self.plan = plan
+        self.programs = programs
+        self.recordings = recordings  # name: folder
+        self.jobs = []
+        self.film_jobs = {}
+        self.variants = plans.variants()
+        self.has_peers = os.path.exists(self.program("run_peer"))
+        self.has_optimisers = os.path.exists(self.program("optimiser_experiment"))
+        for key in plan.sequences:
+            self.film(key)
+        self.add_runs()
+        self.add_convergence()
+        self.add_optimisers()
+        self.add_pictures()
+
+    def program(self, name):
+        return os.path.join(self.programs, name)
+
+    def add(self, *arguments, **options):
+        job = Job(*arguments, **options)
+        self.jobs.append(job)
+        return job
+
+    # ---- Sequences
+
+    def film(self, key):
+        command = [self.program("generate_sequence"), self.sequence(key), "--force", "--threads", "1"]
+        self.film_jobs[key] = self.add("film/" + key,
+                                       [command + self.plan.sequences[key].words])
+
+    def sequence(self, key):
+        """Folder of a sequence or recording."""
+        return self.recordings.get(key, os.path.join("sequences", key))
+
+    def after(self, key):
+        return [self.film_jobs[key]] if key in self.film_jobs else []
+
+    # ---- Tracking runs
+
+    def add_runs(self):
+        for method in plans.PAPER_METHODS:
+            self.track("eight", self.plan.ideal, method)
+            for keys in self.plan.table_2.values():
+                for key in keys:
+                    self.track("eight", key, method)
+            for keys in self.plan.static.values():
+                for key in keys:
+                    self.track("first", key, method, FIRST)
+                    self.track("disturbed", key, method, FIRST + DISTURB)
+        for key in self.plan.beyond + sorted(self.recordings):
+            for method in self.variants:
+                self.track("beyond", key, method)
+            if self.has_peers:
+                for peer, _ in plans.PEERS:
+                    self.track_peer(key, peer)
+
+    def run_path(self, kind, key, method, ending):
+        return os.path.join("runs", "%s-%s-%s.%s" % (kind, key, method, ending))
+
+    def track(self, kind, key, method, options=()):
+        path = lambda ending: self.run_path(kind, key, method.key, ending)
+        command = [self.program("run_sequence"), self.sequence(key), "--output", path("txt"),
+                   "--force"] + list(options) + method.words() + [">", path("summary")]
+        self.add("track/%s/%s/%s" % (kind, key, method.key),
+                 [command] + self.judge(kind, key, path), after=self.after(key))
+
+    def track_peer(self, key, peer):
+        path = lambda ending: self.run_path("beyond", key, "peer_" + peer, ending)
+        command = [self.program("run_peer"), self.sequence(key), "--output", path("txt"), "--force",
+                   "--method", peer, ">", path("summary")]
+        self.add("track/beyond/%s/peer_%s" % (key, peer),
+                 [command] + self.judge("beyond", key, path), after=self.after(key))
+
+    def judge(self, kind, key, path):
+        truth = os.path.join(self.sequence(key), "groundtruth.txt")
+        if kind == "beyond":  # drift over a second
+            return [[self.program("evaluate_trajectory"), truth, path("txt"), "--json", path("json"),
+                     "--force"]]
+        options = FIRST if kind in ("first", "disturbed") else []
+        return [[self.program("pose_errors"), truth, path("txt")] + options + [">", path("csv")]]
+
+    # ---- Experiments on pairs of images
+
+    def pair_words(self, magnitudes, trials):
+        words = ["--trials", str(trials), "--pairs", str(self.plan.pairs),
+                 "--seed", str(self.plan.seed), "--force"]
+        for magnitude in magnitudes:
+            words += ["--magnitude", str(magnitude)]
+        return words
+
+    def add_convergence(self):
+        words = self.pair_words(self.plan.magnitudes, self.plan.trials)
+        program = self.program("convergence_experiment")
+        for relit, methods in ((False, plans.CONVERGENCE_METHODS), (True, plans.RELIT_METHODS)):
+            for method in methods:
+                path = self.convergence_path(method.key, relit)
+                command = [program, self.sequence(self.plan.basin), "--output", path]
+                after = self.after(self.plan.basin)
+                if relit:
+                    command += ["--live", self.sequence(self.plan.basin_relit)]
+                    after = after + self.after(self.plan.basin_relit)
+                self.add(path, [command + words + method.words()], after=after)
+
+    def convergence_path(self, method, relit):
+        return os.path.join("convergence", method + ("-relit" if relit else "") + ".csv")
+
+    def add_optimisers(self):
+        if not self.has_optimisers:
+            return
+        words = self.pair_words(self.plan.optimiser_magnitudes, self.plan.optimiser_trials)
+        for name, _ in plans.OPTIMISERS:
+            command = [self.program("optimiser_experiment"), self.sequence(self.plan.basin),
+                       "--output", self.optimiser_path(name), "--optimiser", name]
+            self.add(self.optimiser_path(name), [command + words + plans.MI.words()],
+                     after=self.after(self.plan.basin), alone=True)
+
+    def optimiser_path(self, name):
+        return os.path.join("optimiser", name + ".csv")
+
+    # ---- Pictures
+
+    def add_pictures(self):
+        plan = self.plan
+        dark = int(0.69 * plan.frames)  # ramp_step is darkest at 70 % of the time
+        self.picture("reference", plan.ideal, plans.MI, max(1, plan.frames // 3))
+        for method in (plans.MI, plans.SSD):
+            self.picture("dark_" + method.key, plan.static["s1"][0], method, dark, FIRST_SETTINGS)
+            self.picture("lamp_" + method.key, plan.static["s2"][0], method, plan.lamp_frame,
+                         FIRST_SETTINGS)
+        self.picture("blurred", plan.blurred, plans.HYBRID, plan.blurred_frame)
+
+    def picture(self, name, key, method, frame, settings=()):
+        command = [self.program("tracking_pictures"), self.sequence(key), self.picture_path(name),
+                   "--frame", str(frame), "--force"]
+        summary = os.path.join("pictures", name + ".summary")
+        self.add("pictures/" + name, [command + list(settings) + method.words() + [">", summary]],
+                 after=self.after(key))
+
+    def picture_path(self, name, *parts):
+        return os.path.join("pictures", name, *parts)

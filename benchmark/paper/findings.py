@@ -1,0 +1,135 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""What the paper finds, held against the numbers of this run."""
+
+import math
+
+import numpy as np
+
+import plan as plans
+
+HOLDS, FAILS, UNDECIDED = "holds", "does not hold", "not decided"
+MI_8, SSD, HYBRID, DEFAULT = plans.CONVERGENCE_METHODS[1], plans.SSD, plans.HYBRID, plans.DEFAULT
+MI_ALL = [method for method in plans.CONVERGENCE_METHODS if method.key == "mi_all"][0]
+HELD = 0.01  # m: a static camera's pose is kept below this, the paper's limit of success
+
+
+class Finding:
+    def __init__(self, claim, verdict, evidence):
+        self.claim, self.verdict, self.evidence = claim, verdict, evidence
+
+
+def percent(value):
+    return "%.1f %%" % (100 * value)
+
+
+def compare_basins(results, smaller, larger):
+    """Difference larger - smaller of the success over all magnitudes, and its 95 % half-width."""
+    a, b = results.basin(smaller), results.basin(larger)
+    return b.mean() - a.mean(), 1.96 * math.sqrt(a.variance() + b.variance())
+
+
+def basin_finding(results, claim, smaller, larger):
+    gap, half = compare_basins(results, smaller, larger)
+    verdict = HOLDS if gap > half else FAILS if gap < -half else UNDECIDED
+    evidence = "success over all magnitudes: %s %s, %s %s, difference %+.1f ± %.1f points" % (
+        smaller.title, percent(results.basin(smaller).mean()), larger.title,
+        percent(results.basin(larger).mean()), 100 * gap, 100 * half)
+    return Finding(claim, verdict, evidence)
+
+
+def subselection(results):
+    gap, half = compare_basins(results, MI_8, MI_ALL)
+    times = [results.basin(method).milliseconds.mean() for method in (MI_8, MI_ALL)]
+    verdict = HOLDS if abs(gap) <= max(half, 0.02) else FAILS
+    return Finding(
+        "Pixel subselection costs nothing in convergence", verdict,
+        "all pixels gain %+.1f ± %.1f points and take %.1f ms for each %.1f ms" % (
+            100 * gap, 100 * half, times[1], times[0]))
+
+
+def optimiser(results):
+    merit = {}
+    for name in ("newton", "lbfgs", "lbfgs_differences"):
+        rows = [row for rows in results.optimiser(name).values() for row in rows]
+        merit[name] = (np.mean([row["success"] for row in rows]),
+                       np.median([row["milliseconds"] for row in rows]))
+    newton, best = merit["newton"], max(merit["lbfgs"][0], merit["lbfgs_differences"][0])
+    fastest = min(merit["lbfgs"][1], merit["lbfgs_differences"][1])
+    verdict = HOLDS if newton[0] >= best and newton[1] < fastest else FAILS
+    return Finding(
+        "L-BFGS is worse than Newton in accuracy and time", verdict,
+        "converged: Newton %s, L-BFGS %s with the same gradient, %s with differences; "
+        "median %.1f, %.1f and %.1f ms" % (
+            percent(newton[0]), percent(merit["lbfgs"][0]), percent(merit["lbfgs_differences"][0]),
+            newton[1], merit["lbfgs"][1], merit["lbfgs_differences"][1]))
+
+
+def static_light(results, case, kind, start):
+    keys = results.experiments.plan.static[case]
+    errors = {method.key: results.errors(kind, keys, method) for method in plans.PAPER_METHODS}
+    mean = {key: e.translation.mean() for key, e in errors.items()}
+    largest = {key: e.translation.max() for key, e in errors.items()}
+    verdict = HOLDS if mean["ssd"] > HELD > mean["mi"] else FAILS
+    evidence = "; ".join("%s %.2f mm (largest %.1f)" % (
+        method.title, 1e3 * mean[method.key], 1e3 * largest[method.key])
+        for method in plans.PAPER_METHODS)
+    return Finding("SSD fails under %s where MI holds, started %s" % (case.upper(), start), verdict,
+                   "mean error: " + evidence)
+
+
+def speed(table_1):
+    """`table_1`: {method: {level: ms}}."""
+    total = {key: times["all"] for key, times in table_1.items()}
+    verdict = HOLDS if total["hybrid"] < 0.5 * (total["ssd"] + total["mi"]) else FAILS
+    return Finding("The hybrid is close to SSD in time", verdict,
+                   "all levels: SSD %.2f ms, hybrid %.2f ms, MI %.2f ms, mivo %.2f ms" % (
+                       total["ssd"], total["hybrid"], total["mi"], total["default"]))
+
+
+def robustness(results):
+    """The default against each of the three in changing light."""
+    cases = [("translations", "eight", results.experiments.plan.table_2["translation", "oscillating"]),
+             ("rotations", "eight", results.experiments.plan.table_2["rotation", "oscillating"]),
+             ("S1, disturbed", "disturbed", results.experiments.plan.static["s1"]),
+             ("S2, disturbed", "disturbed", results.experiments.plan.static["s2"])]
+    return against_all(results, "mivo is more accurate than all three in changing light", cases)
+
+
+def accuracy(results):
+    cases = [(name + "s", "eight", results.experiments.plan.table_2[name, "constant"])
+             for name in ("translation", "rotation")]
+    return against_all(results, "mivo is more accurate than all three in nominal light", cases)
+
+
+def against_all(results, claim, cases):
+    parts, good = [], True
+    for name, kind, keys in cases:
+        mean = {method.key: results.errors(kind, keys, method).translation.mean()
+                for method in plans.PAPER_METHODS}
+        best = min((method for method in plans.PAPER_METHODS if method is not DEFAULT),
+                   key=lambda method: mean[method.key])
+        good = good and mean["default"] <= mean[best.key]
+        parts.append("%s %.2f mm (best of the three: %s %.2f)" % (
+            name, 1e3 * mean["default"], best.title, 1e3 * mean[best.key]))
+    return Finding(claim, HOLDS if good else FAILS, "; ".join(parts))
+
+
+def all_findings(results, table_1):
+    bins = {method.settings.get("mi_bins"): method for method in plans.CONVERGENCE_METHODS
+            if method.key.startswith("mi_") and method is not MI_ALL}
+    found = [basin_finding(results, "MI's basin is narrower than SSD's", MI_8, SSD)]
+    for few, many in zip(plans.MI_BINS, plans.MI_BINS[1:]):
+        found.append(basin_finding(results, "%d bins have a narrower basin than %d" % (many, few),
+                                   bins[many], bins[few]))
+    found.append(subselection(results))
+    if results.experiments.has_optimisers:
+        found.append(optimiser(results))
+    for case in ("s1", "s2"):
+        found.append(static_light(results, case, "first", "from the last pose"))
+        found.append(static_light(results, case, "disturbed", "from a disturbed pose"))
+    if table_1:
+        found.append(speed(table_1))
+    found += [accuracy(results), robustness(results),
+              basin_finding(results, "mivo's basin is wider than that of the paper's hybrid", HYBRID,
+                            DEFAULT)]
+    return found

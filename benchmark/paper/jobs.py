@@ -1,0 +1,163 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Jobs that depend on each other, run side by side, and are not run again when they are done."""
+
+import concurrent.futures
+import hashlib
+import json
+import os
+import subprocess
+import sys
+import time
+
+
+class JobError(Exception):
+    """A program failed; the text says which and why."""
+
+
+class Job:
+    """Commands, run one after the other in the output folder.
+
+    A command is a list of words; the word before a final (">", file) is sent there. `after` are jobs
+    whose results it reads. `alone`: nothing else runs beside it, for it measures time.
+    """
+
+    def __init__(self, name, commands, after=(), alone=False):
+        self.name = name
+        self.commands = commands
+        self.after = list(after)
+        self.alone = alone
+        self.key = None
+
+
+class Folder:
+    """Where results are kept, with a note for each job that is done."""
+
+    def __init__(self, path):
+        self.path = path
+        os.makedirs(os.path.join(path, "done"), exist_ok=True)
+        self.programs = {}
+
+    def file(self, *parts):
+        return os.path.join(self.path, *parts)
+
+    def program_key(self, path):
+        """Hash of an executable: results of another build are not taken for this one's."""
+        if path not in self.programs:
+            with open(path, "rb") as program:
+                self.programs[path] = hashlib.sha256(program.read()).hexdigest()
+        return self.programs[path]
+
+    def key(self, job):
+        """Changes with the commands, the programs, and what the job depends on."""
+        if job.key is None:
+            parts = [json.dumps(job.commands)]
+            parts += [self.program_key(command[0]) for command in job.commands]
+            parts += [self.key(other) for other in job.after]
+            job.key = hashlib.sha256("\n".join(parts).encode()).hexdigest()
+        return job.key
+
+    def note(self, job):
+        return self.file("done", job.name.replace("/", "_") + ".json")
+
+    def is_done(self, job):
+        try:
+            with open(self.note(job), encoding="utf-8") as note:
+                return json.load(note)["key"] == self.key(job)
+        except (OSError, ValueError, KeyError):
+            return False
+
+    def run(self, job):
+        """Runs the commands and leaves the note. Throws JobError."""
+        start = time.time()
+        for command in job.commands:
+            run_command(command, self.path, job.name)
+        text = json.dumps({"key": self.key(job), "seconds": round(time.time() - start, 1)})
+        temporary = self.note(job) + ".part"
+        with open(temporary, "w", encoding="utf-8") as note:
+            note.write(text + "\n")
+        os.replace(temporary, self.note(job))
+
+
+def run_command(command, folder, name):
+    """One command; its standard output goes to the file after ">" or nowhere."""
+    words, target = command, None
+    if len(command) > 2 and command[-2] == ">":
+        words, target = command[:-2], command[-1]
+    result = subprocess.run(words, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                            universal_newlines=True, check=False)
+    if result.returncode != 0:
+        raise JobError("%s: %s failed with code %d: %s" % (
+            name, os.path.basename(words[0]), result.returncode, result.stderr.strip()))
+    if target is not None:
+        path = os.path.join(folder, target)
+        os.makedirs(os.path.dirname(path), exist_ok=True)
+        with open(path, "w", encoding="utf-8") as output:
+            output.write(result.stdout)
+
+
+class Progress:
+    """A bar on stderr when that is a terminal, otherwise a line every tenth of the way."""
+
+    WIDTH = 30
+
+    def __init__(self, total, done):
+        self.total, self.done, self.start = total, done, time.time()
+        self.terminal = sys.stderr.isatty()
+        self.told = self.tenth()
+
+    def tenth(self):
+        return 10 * self.done // max(1, self.total)
+
+    def step(self, name):
+        self.done += 1
+        elapsed = int(time.time() - self.start)
+        clock = "%d:%02d" % (elapsed // 60, elapsed % 60)
+        if self.terminal:
+            filled = self.WIDTH * self.done // max(1, self.total)
+            sys.stderr.write("\r\033[K[%s%s] %d/%d %s %s" % (
+                "#" * filled, " " * (self.WIDTH - filled), self.done, self.total, clock, name))
+        elif self.tenth() > self.told:
+            self.told = self.tenth()
+            sys.stderr.write("%d of %d jobs after %s\n" % (self.done, self.total, clock))
+        sys.stderr.flush()
+
+    def close(self):
+        if self.terminal:
+            sys.stderr.write("\r\033[K")
+            sys.stderr.flush()
+
+
+def run_jobs(jobs, folder, workers):
+    """Runs what is not done yet; the jobs that measure time come last, one by one."""
+    waiting = [job for job in jobs if not folder.is_done(job)]
+    progress = Progress(len(jobs), len(jobs) - len(waiting))
+    try:
+        run_side_by_side([job for job in waiting if not job.alone], folder, workers, progress)
+        for job in [job for job in waiting if job.alone]:
+            folder.run(job)
+            progress.step(job.name)
+    finally:
+        progress.close()
+
+
+def run_side_by_side(waiting, folder, workers, progress):
+    """Starts each job when those before it are done."""
+    unfinished = set(waiting)
+    running = {}
+    with concurrent.futures.ThreadPoolExecutor(workers) as pool:
+        while waiting or running:
+            ready = [job for job in waiting if not any(other in unfinished for other in job.after)]
+            for job in ready[:workers - len(running)]:
+                waiting.remove(job)
+                running[pool.submit(folder.run, job)] = job
+            done, _ = concurrent.futures.wait(running,
+                                              return_when=concurrent.futures.FIRST_COMPLETED)
+            for future in done:
+                job = running.pop(future)
+                try:
+                    future.result()
+                except Exception:
+                    waiting.clear()
+                    raise
+                unfinished.discard(job)
+                progress.step(job.name)
