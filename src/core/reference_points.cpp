@@ -4,54 +4,114 @@
 #include <algorithm>
 
 #include "mivo/core/image_view.h"
+#include "mivo/core/recycled.h"
+#include "mivo/core/warp.h"
 
 namespace mivo {
 namespace {
 
-/// The values that are compared, around a pixel.
-class Neighbourhood {
- public:
-  Neighbourhood(const ReferenceImage& image, const Pixel& p)
-      : value_(sample(image, p.x, p.y)),
-        left_(sample(image, p.x - 1, p.y)),
-        right_(sample(image, p.x + 1, p.y)),
-        above_(sample(image, p.x, p.y - 1)),
-        below_(sample(image, p.x, p.y + 1)) {}
+// The pixels around a point: itself, left, right, above, below, and the corners.
+enum Place { kHere, kLeft, kRight, kAbove, kBelow, kUpLeft, kUpRight, kDownLeft, kDownRight };
+constexpr std::size_t kPlaces = 9;
+constexpr std::size_t kPlacesOfGradient = 5;
+constexpr int kColumnOf[kPlaces] = {0, -1, 1, 0, 0, -1, 1, -1, 1};
+constexpr int kRowOf[kPlaces] = {0, 0, 0, -1, 1, -1, -1, 1, 1};
 
-  double value() const { return value_; }
-  Eigen::Vector2d gradient() const {
-    return 0.5 * Eigen::Vector2d(right_ - left_, below_ - above_);
+/// Intermediate results, one entry per point.
+struct Workspace {
+  std::vector<float> u, v, z;
+  std::vector<float> place_u, place_v, is_inside;
+  std::array<std::vector<float>, kPlaces> value;  // that are compared, around each point
+  std::vector<float> gradient_u, gradient_v;
+  std::vector<float> curvature_uu, curvature_uv, curvature_vv;
+
+  void resize(std::size_t n) {
+    for (std::vector<float>* array : {&u, &v, &z, &place_u, &place_v, &is_inside, &gradient_u,
+                                      &gradient_v, &curvature_uu, &curvature_uv, &curvature_vv}) {
+      array->resize(n);
+    }
+    for (std::vector<float>& array : value) array.resize(n);
   }
-
-  Eigen::Matrix2d hessian(const ReferenceImage& image, const Pixel& p) const {
-    const double xy = 0.25 * (sample(image, p.x + 1, p.y + 1) - sample(image, p.x - 1, p.y + 1) -
-                              sample(image, p.x + 1, p.y - 1) + sample(image, p.x - 1, p.y - 1));
-    Eigen::Matrix2d hessian;
-    hessian << right_ - 2.0 * value_ + left_, xy, xy, below_ - 2.0 * value_ + above_;
-    return hessian;
-  }
-
- private:
-  static double sample(const ReferenceImage& image, int x, int y) {
-    return static_cast<double>(image.contrast != nullptr
-                                   ? normalisedIntensity(image.grey, *image.contrast, x, y)
-                                   : intensityAt(image.grey, x, y));
-  }
-
-  double value_, left_, right_, above_, below_;
 };
 
-/// Rows: derivative of X/Z and Y/Z with respect to X, Y, Z.
-Eigen::Matrix<double, 2, 3> projectionJacobian(const Eigen::Vector3d& point) {
-  const double inverse = 1.0 / point.z();
-  Eigen::Matrix<double, 2, 3> J;
-  J << inverse, 0.0, -point.x() * inverse * inverse, 0.0, inverse, -point.y() * inverse * inverse;
-  return J;
+template <typename Value>
+void sampleRaw(const cv::Mat& image, const std::vector<Pixel>& pixels, std::size_t places,
+               Workspace& work) {
+  const auto stride = static_cast<std::ptrdiff_t>(image.step1());
+  std::ptrdiff_t offset[kPlaces];
+  for (std::size_t k = 0; k < kPlaces; ++k) offset[k] = kRowOf[k] * stride + kColumnOf[k];
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    const Value* here = image.ptr<Value>(pixels[i].y) + pixels[i].x;
+    for (std::size_t k = 0; k < places; ++k) {
+      work.value[k][i] = static_cast<float>(here[offset[k]]);
+    }
+  }
 }
 
-float median(std::vector<float> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
+void sampleNormalised(const ReferenceImage& image, const std::vector<Pixel>& pixels,
+                      std::size_t places, Workspace& work) {
+  const kernels::Kernels& kernels = kernels::active();
+  const int last_column = image.grey.cols - 1;
+  const int last_row = image.grey.rows - 1;
+  for (std::size_t k = 0; k < places; ++k) {
+    bool is_all_inside = true;
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+      const int x = pixels[i].x + kColumnOf[k];
+      const int y = pixels[i].y + kRowOf[k];
+      // The kernel interpolates, and reads the pixels right of it and below it.
+      const bool is_inside = x < last_column && y < last_row;
+      work.place_u[i] = is_inside ? static_cast<float>(x) : 0.0F;
+      work.place_v[i] = is_inside ? static_cast<float>(y) : 0.0F;
+      work.is_inside[i] = is_inside ? 1.0F : 0.0F;
+      is_all_inside = is_all_inside && is_inside;
+    }
+    kernels.sampleNormalised(view(image.grey), view(*image.contrast), work.place_u.data(),
+                             work.place_v.data(), work.is_inside.data(), pixels.size(),
+                             work.value[k].data());
+    if (is_all_inside) continue;
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+      if (work.is_inside[i] != 0.0F) continue;
+      work.value[k][i] = normalisedIntensity(image.grey, *image.contrast,
+                                             pixels[i].x + kColumnOf[k], pixels[i].y + kRowOf[k]);
+    }
+  }
+}
+
+/// Intensities, contrast and the image's derivatives at the points.
+void differentiate(const ReferenceImage& image, bool with_second_derivative,
+                   ReferencePoints& points, Workspace& work) {
+  const std::vector<Pixel>& pixels = points.pixels;
+  const std::size_t places = with_second_derivative ? kPlaces : kPlacesOfGradient;
+  if (image.contrast != nullptr) {
+    sampleNormalised(image, pixels, places, work);
+  } else if (image.grey.type() == CV_8UC1) {
+    sampleRaw<unsigned char>(image.grey, pixels, places, work);
+  } else {
+    sampleRaw<float>(image.grey, pixels, places, work);
+  }
+  const auto& value = work.value;
+  for (std::size_t i = 0; i < pixels.size(); ++i) {
+    const float contrast =
+        image.contrast != nullptr ? localContrast(*image.contrast, pixels[i].x, pixels[i].y) : 1.0F;
+    points.contrast[i] = contrast;
+    points.intensity[i] = contrast * value[kHere][i];
+    work.gradient_u[i] = contrast * 0.5F * (value[kRight][i] - value[kLeft][i]);
+    work.gradient_v[i] = contrast * 0.5F * (value[kBelow][i] - value[kAbove][i]);
+    if (!with_second_derivative) continue;
+    const float twice = 2.0F * value[kHere][i];
+    work.curvature_uu[i] = contrast * (value[kRight][i] - twice + value[kLeft][i]);
+    work.curvature_vv[i] = contrast * (value[kBelow][i] - twice + value[kAbove][i]);
+    work.curvature_uv[i] =
+        contrast * 0.25F *
+        (value[kDownRight][i] - value[kDownLeft][i] - value[kUpRight][i] + value[kUpLeft][i]);
+  }
+}
+
+float median(const std::vector<float>& values) {
+  Recycled<std::vector<float>> copy;
+  *copy = values;
+  const auto middle = copy->begin() + static_cast<std::ptrdiff_t>(copy->size() / 2);
+  std::nth_element(copy->begin(), middle, copy->end());
   return *middle;
 }
 
@@ -66,41 +126,36 @@ void resize(std::size_t n, bool with_second_derivative, ReferencePoints& points)
   }
 }
 
-void storeUpperTriangle(const Matrix6& matrix, std::size_t i, ReferencePoints& points) {
-  std::size_t entry = 0;
+/// Points and derivatives by the kernel.
+void derive(const kernels::WarpParameters& camera, bool with_second_derivative,
+            const Workspace& work, ReferencePoints& points) {
+  const kernels::PixelsView pixels = {work.u.data(),
+                                      work.v.data(),
+                                      work.z.data(),
+                                      work.gradient_u.data(),
+                                      work.gradient_v.data(),
+                                      with_second_derivative ? work.curvature_uu.data() : nullptr,
+                                      with_second_derivative ? work.curvature_uv.data() : nullptr,
+                                      with_second_derivative ? work.curvature_vv.data() : nullptr};
+  kernels::DerivedPoints derived = {points.x.data(), points.y.data(), points.z.data(), {}, {}};
+  for (std::size_t k = 0; k < 6; ++k) derived.jacobian[k] = points.jacobian[k].data();
+  if (with_second_derivative) {
+    for (std::size_t k = 0; k < kSymmetric6; ++k) {
+      derived.second_derivative[k] = points.second_derivative[k].data();
+    }
+  }
+  double motion[kSymmetric6] = {};
+  kernels::active().keyframePoints(camera, pixels, points.size(), derived, motion);
+  const double* entry = motion;
+  const double share = 1.0 / static_cast<double>(std::max<std::size_t>(1, points.size()));
   for (int row = 0; row < 6; ++row) {
     for (int column = row; column < 6; ++column) {
-      points.second_derivative[entry++][i] = static_cast<float>(matrix(row, column));
+      points.pixel_motion(row, column) = points.pixel_motion(column, row) = share * *entry++;
     }
   }
 }
 
 }  // namespace
-
-PointDerivatives pointDerivatives(const Eigen::Vector3d& point,
-                                  const Eigen::Vector2d& normalised_gradient,
-                                  const Eigen::Matrix2d& normalised_hessian) {
-  const Eigen::Matrix<double, 2, 3> projection = projectionJacobian(point);
-  const Eigen::Vector3d g = projection.transpose() * normalised_gradient;  // d I / d (X, Y, Z)
-  PointDerivatives result;
-  result.jacobian << g, point.cross(g);
-
-  // Second derivative with respect to (X, Y, Z): through the image, and through the projection.
-  Eigen::Matrix3d Q = projection.transpose() * normalised_hessian * projection;
-  const double inverse_square = 1.0 / (point.z() * point.z());
-  const Eigen::Vector2d bend = normalised_gradient * inverse_square;
-  Q.topRightCorner<2, 1>() -= bend;
-  Q.bottomLeftCorner<1, 2>() -= bend.transpose();
-  Q(2, 2) += 2.0 * bend.dot(point.head<2>()) / point.z();
-
-  Eigen::Matrix<double, 3, 6> D;  // d (exp(w) X + v) / d (v, w)
-  D << Eigen::Matrix3d::Identity(), -skew(point);
-  result.second = D.transpose() * Q * D;
-  // Second order of the rotation itself: exp(w) X = X + w x X + w x (w x X) / 2.
-  result.second.bottomRightCorner<3, 3>() += 0.5 * (g * point.transpose() + point * g.transpose()) -
-                                             g.dot(point) * Eigen::Matrix3d::Identity();
-  return result;
-}
 
 void makeReferencePoints(const ReferenceImage& image, const cv::Mat& depth, const Camera& camera,
                          const RowMotion& rows, bool with_second_derivative,
@@ -108,46 +163,17 @@ void makeReferencePoints(const ReferenceImage& image, const cv::Mat& depth, cons
   const std::vector<Pixel>& pixels = points.pixels;
   const std::size_t n = pixels.size();
   resize(n, with_second_derivative, points);
-  points.pixel_motion.setZero();
-  const Eigen::Vector2d focal(camera.fx, camera.fy);
-  const bool is_distorted = !camera.distortion.isZero();
+  Recycled<Workspace> work;
+  work->resize(n);
   for (std::size_t i = 0; i < n; ++i) {
-    const Pixel& pixel = pixels[i];
-    const double z = static_cast<double>(depth.at<float>(pixel.y, pixel.x));
-    const Eigen::Vector3d ray = camera.ray({pixel.x, pixel.y});
-    Eigen::Vector3d point = z * ray;
-    point -= rows.displacement(point, pixel.y, camera.height);
-    // d pixel / d normalised coordinates. The curvature of the distortion itself is left out of the
-    // second derivatives: it is hundreds of times weaker than the image's.
-    Eigen::Matrix2d scale = Eigen::Matrix2d::Identity();
-    if (is_distorted) camera.distort(ray.head<2>(), &scale);
-    scale = focal.asDiagonal() * scale;
-    const Neighbourhood values(image, pixel);
-    const double contrast =
-        image.contrast != nullptr
-            ? static_cast<double>(localContrast(*image.contrast, pixel.x, pixel.y))
-            : 1.0;
-    Eigen::Matrix2d hessian = Eigen::Matrix2d::Zero();
-    if (with_second_derivative) hessian = values.hessian(image, pixel);
-    const PointDerivatives derivatives =
-        pointDerivatives(point, contrast * scale.transpose() * values.gradient(),
-                         contrast * scale.transpose() * hessian * scale);
-    points.x[i] = static_cast<float>(point.x());
-    points.y[i] = static_cast<float>(point.y());
-    points.z[i] = static_cast<float>(point.z());
-    points.intensity[i] = static_cast<float>(contrast * values.value());
-    points.contrast[i] = static_cast<float>(contrast);
-    for (std::size_t k = 0; k < 6; ++k) {
-      points.jacobian[k][i] = static_cast<float>(derivatives.jacobian[static_cast<int>(k)]);
-    }
-    if (with_second_derivative) storeUpperTriangle(derivatives.second, i, points);
-    Eigen::Matrix<double, 3, 6> D;
-    D << Eigen::Matrix3d::Identity(), -skew(point);
-    const Eigen::Matrix<double, 2, 6> motion = scale * projectionJacobian(point) * D;
-    points.pixel_motion += motion.transpose() * motion;
+    work->u[i] = static_cast<float>(pixels[i].x);
+    work->v[i] = static_cast<float>(pixels[i].y);
+    work->z[i] = depth.ptr<float>(pixels[i].y)[pixels[i].x];
   }
+  differentiate(image, with_second_derivative, points, *work);
+  const Warp warp(camera, rows, 1);
+  derive(warp.parameters(Eigen::Isometry3d::Identity()), with_second_derivative, *work, points);
   points.median_depth = n > 0 ? median(points.z) : 1.0F;
-  if (n > 0) points.pixel_motion /= static_cast<double>(n);
 }
 
 }  // namespace mivo

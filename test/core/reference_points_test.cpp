@@ -69,7 +69,7 @@ TEST(PointDerivativesTest, AgreeWithDifferencesOfAnImageSeenThroughThePinhole) {
       const Eigen::Vector3d point = random.uniform(0.5, 3.0) * camera.ray({pixel.x, pixel.y});
       const testing::ImageJet jet = image({pixel.x, pixel.y});
       const Eigen::Vector2d f(camera.fx, camera.fy);
-      const PointDerivatives derivatives = pointDerivatives(
+      const testing::PointDerivatives derivatives = testing::pointDerivatives(
           point, f.asDiagonal() * jet.gradient, f.asDiagonal() * jet.hessian * f.asDiagonal());
       const auto intensity = [&](const Vector6& d) {
         return testing::warpedIntensity(image, camera, point, d);
@@ -130,7 +130,7 @@ TEST(ReferencePointsTest, AnImageOnARasterConvergesToTheTrueDerivative) {
       const Eigen::Vector2d f(camera.fx, camera.fy);
       const testing::ImageJet jet = image({40, 30});
       ReferencePoints result = points;
-      const PointDerivatives derivatives = pointDerivatives(
+      const testing::PointDerivatives derivatives = testing::pointDerivatives(
           testing::pointAt(points, 0), f.asDiagonal() * jet.gradient, Eigen::Matrix2d::Zero());
       for (std::size_t k = 0; k < 6; ++k) {
         result.jacobian[k][0] = static_cast<float>(derivatives.jacobian[static_cast<int>(k)]);

@@ -8,6 +8,7 @@
 #include "mivo/core/camera.h"
 #include "mivo/core/reference_points.h"
 #include "support/analytic_image.h"
+#include "support/point_derivatives.h"
 
 // Points of a keyframe whose image is known in closed form, and what the keyframe shows of them
 // after an increment.

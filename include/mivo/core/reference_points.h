@@ -58,14 +58,4 @@ void makeReferencePoints(const ReferenceImage& image, const cv::Mat& depth, cons
                          const RowMotion& rows, bool with_second_derivative,
                          ReferencePoints& points);
 
-/// First and second derivative of the intensity at one point with respect to the increment, from
-/// those with respect to undistorted normalised coordinates (X / Z, Y / Z).
-struct PointDerivatives {
-  Vector6 jacobian;
-  Matrix6 second;
-};
-PointDerivatives pointDerivatives(const Eigen::Vector3d& point,
-                                  const Eigen::Vector2d& normalised_gradient,
-                                  const Eigen::Matrix2d& normalised_hessian);
-
 }  // namespace mivo

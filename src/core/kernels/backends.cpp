@@ -23,7 +23,7 @@ const Kernels& scalar() {
       reference::sumPairs,       reference::geometricResiduals, reference::binPositions,
       reference::jointHistogram, reference::logarithms,         reference::informationDerivatives,
       reference::reduce,         reference::contrastMap,        reference::normaliseImage,
-      reference::gradientRow,    reference::maximaRow,
+      reference::gradientRow,    reference::maximaRow,          reference::keyframePoints,
   };
   return kernels;
 }

@@ -42,6 +42,9 @@ void informationDerivatives(const BinsView& reference, const BinsView& live, con
                             float bin_scale, const float* log_ratio, float* rows,
                             InformationSums& sums);
 
+void keyframePoints(const WarpParameters& camera, const PixelsView& pixels, std::size_t n,
+                    const DerivedPoints& points, double pixel_motion[21]);
+
 void reduce(const ImageView& fine, float* coarse, std::ptrdiff_t coarse_stride, float* scratch);
 double contrastMap(const ImageView& image, float* pairs, std::ptrdiff_t pairs_stride,
                    float* scratch);

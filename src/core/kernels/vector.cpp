@@ -30,6 +30,8 @@
 #include "kernels/vector_information-inl.h"
 //
 #include "kernels/vector_images-inl.h"
+//
+#include "kernels/vector_keyframe-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mivo {
@@ -43,7 +45,7 @@ const Kernels& table() {
       sumPairs,       geometricResiduals, binPositions,
       jointHistogram, logarithms,         informationDerivatives,
       reduce,         contrastMap,        normaliseImage,
-      gradientRow,    maximaRow,
+      gradientRow,    maximaRow,          keyframePoints,
   };
   return kernels;
 }

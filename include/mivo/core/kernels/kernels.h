@@ -60,6 +60,44 @@ struct PlanesView {
   const float* weight;
 };
 
+/// Pixels of a keyframe and what its image does there.
+struct PixelsView {
+  const float* u;
+  const float* v;
+  const float* z;           ///< depth, m
+  const float* gradient_u;  ///< grey levels per pixel
+  const float* gradient_v;
+  const float* curvature_uu;  ///< second derivatives; all three null unless asked for
+  const float* curvature_uv;
+  const float* curvature_vv;
+
+  PixelsView from(std::size_t begin) const {
+    const auto later = [=](const float* values) {
+      return values != nullptr ? values + begin : nullptr;
+    };
+    return {u + begin,          v + begin,           z + begin,           gradient_u + begin,
+            gradient_v + begin, later(curvature_uu), later(curvature_uv), later(curvature_vv)};
+  }
+};
+
+/// Where keyframePoints puts its results, see ReferencePoints.
+struct DerivedPoints {
+  float* x;
+  float* y;
+  float* z;
+  float* jacobian[6];
+  float* second_derivative[21];  ///< not used without the image's second derivatives
+
+  DerivedPoints from(std::size_t begin) const {
+    DerivedPoints rest = {x + begin, y + begin, z + begin, {}, {}};
+    for (int k = 0; k < 6; ++k) rest.jacobian[k] = jacobian[k] + begin;
+    for (int k = 0; k < 21; ++k) {
+      if (second_derivative[k] != nullptr) rest.second_derivative[k] = second_derivative[k] + begin;
+    }
+    return rest;
+  }
+};
+
 /// A row-major rigid motion.
 struct Motion {
   float rotation[9];
@@ -171,6 +209,13 @@ struct Kernels {
   /// those of the rows y - 1, y, y + 1.
   void (*maximaRow)(const ImageView& image, int y, const float* const squared[3], float threshold,
                     std::uint8_t* maximal);
+
+  /// Points of a keyframe, moved to where they were when the middle row was read, with the first
+  /// and, where the image's second derivatives are given, second derivatives of their intensity
+  /// with respect to the increment. Adds to pixel_motion the upper triangle, row by row, of the sum
+  /// of JᵀJ, J = d pixel / d increment. @param camera the pose in it does not matter.
+  void (*keyframePoints)(const WarpParameters& camera, const PixelsView& pixels, std::size_t n,
+                         const DerivedPoints& points, double pixel_motion[21]);
 };
 
 /// Floats that jointHistogram needs.

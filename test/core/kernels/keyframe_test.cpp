@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+
+#include "kernel_data.h"
+
+namespace mivo {
+namespace {
+
+using kernels::Kernels;
+using testing::Array;
+using testing::forEachCase;
+using testing::Numbers;
+
+constexpr float kUnset = -777.0F;
+
+kernels::WarpParameters cameraOf(bool is_distorted, bool has_row_motion) {
+  kernels::WarpParameters p{};
+  p.has_row_motion = has_row_motion;
+  p.angular[0] = 0.03F;
+  p.angular[1] = -0.04F;
+  p.angular[2] = 0.02F;
+  p.linear[0] = 0.01F;
+  p.linear[1] = 0.02F;
+  p.linear[2] = -0.01F;
+  p.height = 480.0F;
+  p.fx = 525.0F;
+  p.fy = 520.0F;
+  p.cx = 319.5F;
+  p.cy = 239.5F;
+  p.is_distorted = is_distorted;
+  p.k1 = 0.26F;
+  p.k2 = -0.95F;
+  p.p1 = -0.005F;
+  p.p2 = 0.003F;
+  p.k3 = 1.16F;
+  return p;
+}
+
+struct Input {
+  Input(std::size_t n, std::size_t offset) {
+    Numbers numbers(static_cast<unsigned>(n + 11));
+    arrays.push_back(numbers.array(n, offset, 0.0F, 639.0F));
+    arrays.push_back(numbers.array(n, offset, 0.0F, 479.0F));
+    arrays.push_back(numbers.array(n, offset, 0.3F, 10.0F));
+    for (int k = 0; k < 5; ++k) arrays.push_back(numbers.array(n, offset, -60.0F, 60.0F));
+    // No gradient at all, and a corner of the image.
+    for (std::size_t i = 0; i < n; i += 5) arrays[3][i] = arrays[4][i] = 0.0F;
+    for (std::size_t i = 2; i < n; i += 7) arrays[0][i] = arrays[1][i] = 0.0F;
+  }
+  kernels::PixelsView view(bool with_second_derivative) const {
+    const auto at = [&](std::size_t k) { return arrays[k].data(); };
+    const auto second = [&](std::size_t k) { return with_second_derivative ? at(k) : nullptr; };
+    return {at(0), at(1), at(2), at(3), at(4), second(5), second(6), second(7)};
+  }
+  std::vector<Array> arrays;
+};
+
+struct Output {
+  Output(std::size_t n, std::size_t offset) {
+    for (int k = 0; k < 3 + 6 + 21; ++k) arrays.emplace_back(n, offset, kUnset);
+  }
+  kernels::DerivedPoints view() {
+    kernels::DerivedPoints points{arrays[0].data(), arrays[1].data(), arrays[2].data(), {}, {}};
+    for (std::size_t k = 0; k < 6; ++k) points.jacobian[k] = arrays[3 + k].data();
+    for (std::size_t k = 0; k < 21; ++k) points.second_derivative[k] = arrays[9 + k].data();
+    return points;
+  }
+  std::vector<Array> arrays;
+  double motion[21] = {};
+};
+
+/// Largest magnitude at an entry of all columns from `first` on: what rounding is measured by.
+float largest(const std::vector<Array>& arrays, std::size_t first, std::size_t count,
+              std::size_t i) {
+  float result = 0.0F;
+  for (std::size_t k = first; k < first + count; ++k) {
+    result = std::max(result, std::abs(arrays[k][i]));
+  }
+  return result;
+}
+
+void expectAgreement(const Output& actual, const Output& expected, std::size_t n,
+                     bool with_second_derivative) {
+  const std::size_t groups[3][2] = {{0, 3}, {3, 6}, {9, 21}};
+  const float tolerance[3] = {2e-6F, 1e-5F, 3e-5F};
+  for (std::size_t g = 0; g < 3; ++g) {
+    for (std::size_t i = 0; i < n; ++i) {
+      const float size = largest(expected.arrays, groups[g][0], groups[g][1], i);
+      for (std::size_t k = groups[g][0]; k < groups[g][0] + groups[g][1]; ++k) {
+        if (g == 2 && !with_second_derivative) {
+          EXPECT_EQ(actual.arrays[k][i], kUnset) << "was not asked for";
+        } else {
+          EXPECT_NEAR(actual.arrays[k][i], expected.arrays[k][i], tolerance[g] * size) << k;
+        }
+      }
+    }
+  }
+  const int diagonal[6] = {0, 6, 11, 15, 18, 20};
+  int entry = 0;
+  for (int row = 0; row < 6; ++row) {
+    for (int column = row; column < 6; ++column, ++entry) {
+      const double size =
+          std::sqrt(expected.motion[diagonal[row]] * expected.motion[diagonal[column]]);
+      EXPECT_NEAR(actual.motion[entry], expected.motion[entry], 1e-5 * size);
+    }
+  }
+  for (const Array& array : actual.arrays) array.expectGuarded();
+}
+
+TEST(VectorKeyframeTest, PointsAgreeWithTheReference) {
+  for (const bool is_distorted : {false, true}) {
+    for (const bool has_row_motion : {false, true}) {
+      for (const bool with_second_derivative : {false, true}) {
+        const kernels::WarpParameters camera = cameraOf(is_distorted, has_row_motion);
+        forEachCase([&](const Kernels& kernels, std::size_t n, std::size_t offset) {
+          const Input input(n, offset);
+          Output expected(n, offset);
+          Output actual(n, offset);
+          kernels::scalar().keyframePoints(camera, input.view(with_second_derivative), n,
+                                           expected.view(), expected.motion);
+          kernels.keyframePoints(camera, input.view(with_second_derivative), n, actual.view(),
+                                 actual.motion);
+          expectAgreement(actual, expected, n, with_second_derivative);
+        });
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace mivo
