@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace mivo {
@@ -11,13 +12,16 @@ namespace {
 constexpr double kBucket = 0.5;        // s of device time, of which the least delayed image is kept
 constexpr int kBuckets = 60;           // how far back the line looks: 30 s
 constexpr double kSlopeSpan = 5.0;     // s that must be seen before the clocks' rates are compared
+constexpr double kSlopeDoubt = 0.25;   // part of the span: see fitLine
 constexpr double kMaxSlope = 0.001;    // crystals are better than 1000 ppm
 constexpr double kSettle = 1.0;        // s at the start in which corrections act at once
 constexpr double kFollowRate = 0.001;  // s per s, afterwards: invisible to a tracker
 constexpr double kNews = 0.0005;       // s by which the difference falls when it is not yet known
 constexpr int kQuiet = 20;             // images without such news
-constexpr double kJump = 0.5;          // s: more than USB and a busy machine delay
-constexpr int kJumpCount = 5;          // images in a row, for a single one may just be very late
+constexpr int kNear = 6;          // moments whose images came with the smallest delay, or nearly
+constexpr double kMoment = 0.01;  // s, between images that were not taken together
+constexpr double kJump = 0.5;     // s: more than USB and a busy machine delay
+constexpr int kJumpCount = 5;     // images in a row, for a single one may just be very late
 constexpr std::int64_t kSmallestStep = 1000;  // ns between two stamps of a stream
 
 constexpr double kMicro = 1e-6;
@@ -34,6 +38,8 @@ void ClockFilter::restart(std::uint64_t device_stamp, std::int64_t arrival) {
   jumped_ = 0;
   floor_ = 0.0;
   quiet_ = 0;
+  near_ = 0;
+  last_near_ = -kJump;
   slope_ = 0.0;
   offset_ = 0.0;
   applied_ = 0.0;
@@ -65,6 +71,12 @@ void ClockFilter::observe(std::uint64_t device_stamp, std::int64_t arrival) {
   if (point.difference < floor_ - kNews) {
     floor_ = point.difference;
     quiet_ = 0;
+    near_ = 0;
+  }
+  // Colour and depth of one moment are late together and count once.
+  if (point.difference < floor_ + kNews && std::abs(device - last_near_) > kMoment) {
+    ++near_;
+    last_near_ = device;
   }
   add(point);
   fitLine();
@@ -72,7 +84,8 @@ void ClockFilter::observe(std::uint64_t device_stamp, std::int64_t arrival) {
 }
 
 bool ClockFilter::isSettled() const {
-  return started_ && quiet_ >= kQuiet;
+  // What delays images on a busy machine spreads their delays; only where nothing does they agree.
+  return started_ && quiet_ >= kQuiet && near_ >= kNear;
 }
 
 bool ClockFilter::isJump(const Point& point) {
@@ -101,42 +114,57 @@ void ClockFilter::add(const Point& point) {
   }
 }
 
+std::vector<ClockFilter::Point> ClockFilter::lowerHull() const {
+  std::vector<Point> hull;
+  for (const Bucket& bucket : buckets_) {
+    const Point& p = bucket.lowest;
+    while (hull.size() >= 2) {
+      const Point& a = hull[hull.size() - 2];
+      const Point& b = hull.back();
+      const double turn = (b.device - a.device) * (p.difference - a.difference) -
+                          (b.difference - a.difference) * (p.device - a.device);
+      if (turn > 0.0) {
+        break;
+      }
+      hull.pop_back();
+    }
+    hull.push_back(p);
+  }
+  return hull;
+}
+
+double ClockFilter::offsetBelowAll(double slope) const {
+  double offset = std::numeric_limits<double>::max();
+  for (const Bucket& bucket : buckets_) {
+    offset = std::min(offset, bucket.lowest.difference - slope * bucket.lowest.device);
+  }
+  return offset;
+}
+
 void ClockFilter::fitLine() {
   const double begin = buckets_.front().lowest.device;
   const double end = buckets_.back().lowest.device;
-  if (end - begin < kSlopeSpan) {
-    slope_ = 0.0;
-  } else {
-    // Lower convex hull; of all lines below the points, the one through the hull's edge over the
-    // middle of the window has the least area between.
-    std::vector<Point> hull;
-    for (const Bucket& bucket : buckets_) {
-      const Point& p = bucket.lowest;
-      while (hull.size() >= 2) {
-        const Point& a = hull[hull.size() - 2];
-        const Point& b = hull.back();
-        const double turn = (b.device - a.device) * (p.difference - a.difference) -
-                            (b.difference - a.difference) * (p.device - a.device);
-        if (turn > 0.0) {
-          break;
-        }
-        hull.pop_back();
-      }
-      hull.push_back(p);
-    }
+  slope_ = 0.0;
+  if (end - begin >= kSlopeSpan) {
+    // Of all lines below the points the highest in the middle has the least area between; it runs
+    // along an edge of their hull. A level line is kept unless a slope gains what a true one must:
+    // half of what it climbs, less what late points take away.
     const double middle = 0.5 * (begin + end);
-    std::size_t i = 1;
-    while (i + 1 < hull.size() && hull[i].device < middle) {
-      ++i;
+    const double doubt = kSlopeDoubt * (end - begin);
+    double highest = offsetBelowAll(0.0);
+    const std::vector<Point> hull = lowerHull();
+    for (std::size_t i = 1; i < hull.size(); ++i) {
+      const double slope = std::clamp(
+          (hull[i].difference - hull[i - 1].difference) / (hull[i].device - hull[i - 1].device),
+          -kMaxSlope, kMaxSlope);
+      const double height = offsetBelowAll(slope) + slope * middle - doubt * std::abs(slope);
+      if (height > highest) {
+        highest = height;
+        slope_ = slope;
+      }
     }
-    const double slope =
-        (hull[i].difference - hull[i - 1].difference) / (hull[i].device - hull[i - 1].device);
-    slope_ = std::clamp(slope, -kMaxSlope, kMaxSlope);
   }
-  offset_ = buckets_.front().lowest.difference - slope_ * buckets_.front().lowest.device;
-  for (const Bucket& bucket : buckets_) {
-    offset_ = std::min(offset_, bucket.lowest.difference - slope_ * bucket.lowest.device);
-  }
+  offset_ = offsetBelowAll(slope_);
 }
 
 void ClockFilter::follow(double device) {

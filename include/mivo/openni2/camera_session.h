@@ -80,7 +80,7 @@ struct SessionTimes {
   /// settings take effect, and the clocks' difference becomes known. Recordings lose none.
   int warm_up_images = 10;
   /// So many more at most while the clocks' difference is still falling: the machine is busy.
-  int most_unsettled_images = 60;
+  int most_unsettled_images = 120;
 };
 
 /// The life of a camera: opens it, keeps the wanted streams running, stamps images, notices loss

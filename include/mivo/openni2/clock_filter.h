@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <deque>
+#include <vector>
 
 #include "mivo/openni2/camera_device.h"
 
@@ -28,8 +29,8 @@ class ClockFilter {
   /// Forgets the clocks' difference, for another device. Results still grow.
   void reset() { started_ = false; }
 
-  /// Whether the last images brought no news of the clocks' difference: results are good from now
-  /// on.
+  /// Whether the last images brought no news of the clocks' difference, and several of them agree
+  /// on it: results are good from now on.
   bool isSettled() const;
 
   /// Rate of the device's clock relative to the host's, minus 1; 0 until it is known.
@@ -48,6 +49,8 @@ class ClockFilter {
   void restart(std::uint64_t device_stamp, std::int64_t arrival);
   bool isJump(const Point& point);
   void add(const Point& point);
+  std::vector<Point> lowerHull() const;
+  double offsetBelowAll(double slope) const;
   void fitLine();
   void follow(double device);
 
@@ -58,6 +61,8 @@ class ClockFilter {
   double last_device_ = 0.0;
   double floor_ = 0.0;       ///< smallest difference so far, but for the last few tenths of a ms
   int quiet_ = 0;            ///< observations since it fell
+  int near_ = 0;             ///< moments observed close to it
+  double last_near_ = 0.0;   ///< device time of the last of them, s
   int jumped_ = 0;           ///< observations in a row that do not fit
   double slope_ = 0.0;       ///< of the line
   double offset_ = 0.0;      ///< of the line at device time 0
