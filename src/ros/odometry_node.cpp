@@ -192,6 +192,9 @@ void OdometryNode::publish(const ImagePair& pair, TrackingStatus& status,
     // The odometry frame is the first pose of the base.
     if (!T_odom_world_) T_odom_world_ = T_base_camera_;
     publishOdometry(header.stamp, T_base_camera_);
+  }
+  status.processing_latency = (ros::WallTime::now() - pair.arrival()).toSec();
+  if (T_base_camera) {
     display_.publish(session_.odometry(), session_.result().keyframes, *T_odom_world_, header);
   }
   status.header = header;

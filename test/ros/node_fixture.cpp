@@ -246,6 +246,21 @@ bool NodeTest::findDiagnosis(const std::string& task,
   return false;
 }
 
+diagnostic_msgs::DiagnosticStatus NodeTest::latestDiagnosis(const std::string& task) const {
+  diagnostic_msgs::DiagnosticStatus latest;
+  findDiagnosis(
+      task, [](const std::string& /*text*/) { return false; }, latest);
+  return latest;
+}
+
+std::string NodeTest::valueOf(const diagnostic_msgs::DiagnosticStatus& status,
+                              const std::string& key) {
+  const auto value = std::find_if(
+      status.values.begin(), status.values.end(),
+      [&](const diagnostic_msgs::KeyValue& candidate) { return candidate.key == key; });
+  return value == status.values.end() ? std::string() : value->value;
+}
+
 diagnostic_msgs::DiagnosticStatus NodeTest::diagnosis(
     const std::string& task, const std::function<bool(const std::string&)>& fits) {
   diagnostic_msgs::DiagnosticStatus found;

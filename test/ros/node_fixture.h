@@ -95,6 +95,10 @@ class NodeTest : public ::testing::Test {
   /// The same without waiting: a condition of waitFor.
   bool findDiagnosis(const std::string& task, const std::function<bool(const std::string&)>& fits,
                      diagnostic_msgs::DiagnosticStatus& found) const;
+  /// The latest entry of a task, to be asked by conditions as well.
+  diagnostic_msgs::DiagnosticStatus latestDiagnosis(const std::string& task) const;
+  static std::string valueOf(const diagnostic_msgs::DiagnosticStatus& status,
+                             const std::string& key);
 
   /// Makes the next images black, and without depth: to be called by spoil_.
   void blacken();

@@ -76,6 +76,47 @@ TEST_F(NodeTest, NoFrameIsLostAlsoNotTheLastOne) {
   EXPECT_EQ(0U, statusOf(29).dropped_frames);
 }
 
+TEST_F(NodeTest, LiveTheNewestFrameWinsAndTheOthersAreCounted) {
+  constexpr int kFrames = 30;
+  publishCameraOnBase();
+  setParameter("drop_frames", true);
+  setParameter("queue_size", 100);
+  // A slow tracker: before each frame it waits for a transform that never comes.
+  setParameter("guess_frame_id", frame("nowhere"));
+  setParameter("tf_timeout", 0.2);
+  setParameter("publish_tf", false);
+  load();
+  track(0);
+  const TrackingStatus before = statusOf(0);
+  for (int i = 1; i < kFrames; ++i) publish(i);
+  ASSERT_TRUE(waitFor([&] { return isDone(kFrames - 1); }));
+  const TrackingStatus after = statusOf(kFrames - 1);
+  EXPECT_GT(after.dropped_frames, before.dropped_frames);
+  EXPECT_EQ(kFrames - 1U, after.frames + after.dropped_frames + after.skipped_frames -
+                              (before.frames + before.dropped_frames + before.skipped_frames));
+  const std::string dropped = std::to_string(after.dropped_frames);
+  EXPECT_TRUE(
+      waitFor([&] { return valueOf(latestDiagnosis("input"), "dropped frames") == dropped; }));
+}
+
+TEST_F(NodeTest, LiveAPairIsNotHeldBackForTheNextImage) {
+  publishCameraOnBase();
+  setParameter("drop_frames", true);
+  load();
+  // At first a pair waits whether the next image fits better; then its period is known.
+  constexpr int kLast = 20;
+  constexpr double kDelay = 0.012;
+  int i = 0;
+  for (publish(i, i, kDelay); i < kLast; ++i) {
+    publish(i + 1, i + 1, kDelay);
+    ASSERT_TRUE(waitFor([&] { return hasStatus(i); })) << i;
+  }
+  ASSERT_TRUE(waitFor([&] { return isDone(kLast); }));
+  EXPECT_GT(statusOf(kLast).processing_latency, 0.0);
+  // There is no next image, and only after half a second a pair goes on without one.
+  EXPECT_LT(statusOf(kLast).processing_latency, 0.4);
+}
+
 TEST_F(NodeTest, ImagesThatWaitForTheCalibrationAreNotLost) {
   publishCameraOnBase();
   load();

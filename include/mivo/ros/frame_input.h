@@ -15,6 +15,7 @@
 
 #include "mivo/ros/image_port.h"
 #include "mivo/ros/node_parameters.h"
+#include "mivo/ros/stamp_gap.h"
 
 namespace mivo {
 
@@ -58,10 +59,12 @@ class FrameInput {
   struct Waiting {
     std::deque<ImageMessageConstPtr> messages;  // since the last pair
     InputCount count;
+    StampGap gap;
   };
 
   void observe(const ImageMessageConstPtr& message, Waiting& waiting);
   void connect();
+  void expect(int input, Waiting& waiting, const ros::Time& stamp);
   void takePair(const ImageMessageConstPtr& colour, const ImageMessageConstPtr& depth);
   void takeCameraInfo(const sensor_msgs::CameraInfoConstPtr& message);
   void deliverWaiting();

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <ros/message_traits.h>
+#include <ros/time.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/CompressedImage.h>
 #include <sensor_msgs/Image.h>
 
+#include <algorithm>
 #include <boost/make_shared.hpp>
 #include <boost/shared_ptr.hpp>
 
@@ -18,6 +20,7 @@ struct ImageMessage {
   std_msgs::Header header;
   sensor_msgs::ImageConstPtr raw;  ///< one of the two is set
   sensor_msgs::CompressedImageConstPtr compressed;
+  ros::WallTime arrival;  ///< in this node
 
   /// As the functions of the same names for messages.
   ColourImage toColourImage() const {
@@ -31,10 +34,12 @@ struct ImageMessage {
 using ImageMessageConstPtr = boost::shared_ptr<const ImageMessage>;
 
 inline ImageMessageConstPtr wrap(const sensor_msgs::ImageConstPtr& message) {
-  return boost::make_shared<ImageMessage>(ImageMessage{message->header, message, nullptr});
+  return boost::make_shared<ImageMessage>(
+      ImageMessage{message->header, message, nullptr, ros::WallTime::now()});
 }
 inline ImageMessageConstPtr wrap(const sensor_msgs::CompressedImageConstPtr& message) {
-  return boost::make_shared<ImageMessage>(ImageMessage{message->header, nullptr, message});
+  return boost::make_shared<ImageMessage>(
+      ImageMessage{message->header, nullptr, message, ros::WallTime::now()});
 }
 
 /// A colour image, the depth image that belongs to it, and the calibration of both.
@@ -42,6 +47,9 @@ struct ImagePair {
   ImageMessageConstPtr colour;
   ImageMessageConstPtr depth;
   sensor_msgs::CameraInfoConstPtr camera_info;
+
+  /// When both were there.
+  ros::WallTime arrival() const { return std::max(colour->arrival, depth->arrival); }
 };
 
 }  // namespace mivo

@@ -38,7 +38,8 @@ class OdometryDiagnostics {
   struct Sample {  // of one frame
     ros::WallTime arrival;
     double cpu_ms;
-    double latency;
+    double latency;             // s, since the stamp
+    double processing_latency;  // s, since the images came
     double pairing_offset;
   };
 

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Real recordings, where $MIVO_DATA says that there are some: a bag gives the bits of its folder.
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "programs/program_fixture.h"
+
+namespace mivo {
+namespace {
+
+class BagRecordingTest : public ProgramTest, public ::testing::WithParamInterface<const char*> {};
+
+TEST_P(BagRecordingTest, BagAndFolderGiveTheSameBits) {
+  const char* data = std::getenv("MIVO_DATA");
+  if (data == nullptr) GTEST_SKIP() << "MIVO_DATA is not set: no recordings";
+  const std::string sequence = std::string(data) + "/" + GetParam();
+  const std::string bag = folder_ / "recording.bag";
+  const std::string of_folder = folder_ / "folder.txt";
+  const std::string of_bag = folder_ / "bag.txt";
+  for (const auto& [program, arguments] : {
+           std::pair("sequence_to_bag", std::vector<std::string>{sequence, bag}),
+           std::pair("run_bag", std::vector<std::string>{bag, "--output", of_bag}),
+           std::pair("run_sequence", std::vector<std::string>{sequence, "--output", of_folder}),
+       }) {
+    const ProcessResult result = run(program, arguments);
+    ASSERT_EQ(0, result.exit_code) << program << ": " << result.errors;
+  }
+  const std::string expected = contentOf(of_folder);
+  EXPECT_FALSE(expected.empty());
+  EXPECT_TRUE(expected == contentOf(of_bag));
+}
+
+INSTANTIATE_TEST_SUITE_P(Recordings, BagRecordingTest,
+                         ::testing::Values("tum_fr1_rpy_first240", "sun3d_xtion_fragA"));
+
+}  // namespace
+}  // namespace mivo
