@@ -150,6 +150,8 @@ def run_side_by_side(waiting, folder, workers, progress):
             for job in ready[:workers - len(running)]:
                 waiting.remove(job)
                 running[pool.submit(folder.run, job)] = job
+            if not running:
+                raise ValueError("'%s' depends on a job that does not run" % waiting[0].name)
             done, _ = concurrent.futures.wait(running,
                                               return_when=concurrent.futures.FIRST_COMPLETED)
             for future in done:

@@ -91,12 +91,13 @@ class Plan:
 
     def __init__(self, quick):
         self.quick = quick
-        self.frames = 33 if quick else 150  # RPE is over 1 s
+        self.frames = 33 if quick else 120  # drift is measured over 1 s
         self.scenes = ["room"] if quick else ["room", "office"]
-        self.size = ["--width", "320", "--height", "240", "--samples", "1"] if quick else []
+        self.size = ["--samples", "2"]
+        if quick:
+            self.size = ["--width", "320", "--height", "240", "--samples", "1"]
         self.trials = 60 if quick else 1000
-        self.magnitudes = [0.05, 0.1, 0.2] if quick else [0.02, 0.05, 0.1, 0.15, 0.2, 0.25, 0.3,
-                                                          0.4, 0.5]
+        self.magnitudes = [0.05, 0.1, 0.2] if quick else [0.02, 0.05, 0.1, 0.15, 0.2, 0.3, 0.4]
         self.optimiser_trials = 10 if quick else 200
         self.optimiser_magnitudes = [0.02, 0.1] if quick else [0.02, 0.05, 0.1, 0.15]
         self.pairs = 3 if quick else 10

@@ -24,6 +24,9 @@ plt.rcParams.update({"font.size": 9, "axes.grid": True, "grid.color": "0.88", "f
                      "lines.markersize": 5, "lines.linewidth": 1.4, "legend.framealpha": 0.9})
 
 
+SMALLEST = 1e-5  # m: a pose that did not move at all has no place on a logarithmic axis
+
+
 def save(figure, path):
     figure.tight_layout()
     figure.savefig(path, metadata={"Software": None})
@@ -84,7 +87,7 @@ def ideal(results, path):
 def static_errors(results, path):
     """Fig. 5: errors against the first image over time, and the light."""
     plan = results.experiments.plan
-    figure, axes = plt.subplots(3, 2, figsize=(9.5, 6.4), sharex="col",
+    figure, axes = plt.subplots(3, 2, figsize=(9.5, 6.8), sharex="col",
                                 gridspec_kw={"height_ratios": [3, 3, 1]})
     for column, (case, title) in enumerate((("s1", "S1: light ramps down, then jumps back"),
                                             ("s2", "S2: a lamp moves through the view"))):
@@ -95,11 +98,11 @@ def static_errors(results, path):
                 errors = results.errors(kind, [key], method)
                 style = dict(STYLES[method.key], markevery=max(1, len(errors.stamp) // 12))
                 seconds = errors.stamp - errors.stamp[0]
-                axes[row, column].plot(seconds, 1e3 * np.maximum(errors.translation, 1e-6),
+                axes[row, column].plot(seconds, 1e3 * np.maximum(errors.translation, SMALLEST),
                                        label=method.title, **style)
             axes[row, column].set_yscale("log")
             axes[row, column].set_ylabel("translation error (mm)")
-            axes[row, column].set_title(title + ", started " + start, fontsize=9)
+            axes[row, column].set_title("%s;\nstarted %s" % (title, start), fontsize=9)
         seconds, lux = results.illuminance(key)
         axes[2, column].plot(seconds - seconds[0], lux, color="0.3")
         axes[2, column].set_ylim(bottom=0)

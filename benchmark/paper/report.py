@@ -11,6 +11,7 @@ import findings
 import paper_numbers
 import plan as plans
 import plots
+from jobs import JobError
 
 PICTURES = "results"
 
@@ -23,7 +24,9 @@ def table(header, rows):
 
 
 def number(value):
-    """Three digits: what is small needs decimals."""
+    """Three digits: what is small needs decimals. Throws JobError for what is no number."""
+    if not np.isfinite(value):
+        raise JobError("a result is not finite; the output folder says which")
     return "%.0f" % value if value >= 100 else "%.1f" % value if value >= 10 else "%.2f" % value
 
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "random_twist.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
-
-#include "random_twist.h"
 
 namespace mivo {
 namespace {
