@@ -3,8 +3,6 @@
 
 #include <opencv2/core.hpp>
 
-#include "mivo/core/depth_pyramid.h"
-
 namespace mivo {
 namespace {
 
@@ -47,24 +45,6 @@ double FramePyramid::contrastInView() const {
   cv::Scalar deviation;
   cv::meanStdDev(grey(num_levels_ - 1), mean, deviation);
   return deviation[0];
-}
-
-float FramePyramid::depthAt(int x, int y) const {
-  if (frame_.depth.type() == CV_16UC1) {
-    return depthInMetres(frame_.depth.at<unsigned short>(y, x),
-                         static_cast<float>(frame_.depth_unit));
-  }
-  const float z = frame_.depth.at<float>(y, x);
-  return z > 0.0F && z < 1e4F ? z : 0.0F;  // NaN is no reading either
-}
-
-kernels::DepthView FramePyramid::depthView() const {
-  const auto stride = static_cast<std::ptrdiff_t>(frame_.depth.step1());
-  if (frame_.depth.type() == CV_16UC1) {
-    return {nullptr, frame_.depth.ptr<std::uint16_t>(), stride,
-            static_cast<float>(frame_.depth_unit)};
-  }
-  return {frame_.depth.ptr<float>(), nullptr, stride, 1.0F};
 }
 
 }  // namespace mivo

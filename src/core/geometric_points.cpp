@@ -4,17 +4,20 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
+
+#include "mivo/core/recycled.h"
 
 namespace mivo {
 namespace {
 
 constexpr int kRadius = 3;  // pixels of the level: a patch is 7 x 7
 constexpr int kStep = 3;    // pixels between patches
-constexpr float kPatchSize = (2 * kRadius + 1) * (2 * kRadius + 1);
+constexpr double kPatchSize = (2 * kRadius + 1) * (2 * kRadius + 1);
 // Sum of u^2 over the patch: 7 (1 + 4 + 9) 2.
-constexpr float kSquares = 196.0F;
+constexpr double kSquares = 196.0;
 // A patch is planar when its residuals are at most this many deviations of a reading.
-constexpr float kPlanar = 2.0F;
+constexpr double kPlanar = 2.0;
 // Surfaces seen at a flatter angle have no reliable depth.
 constexpr double kMinCosine = 0.3;
 // Directions of normals: 4 rings of 8 sectors.
@@ -27,40 +30,69 @@ struct Patch {
 };
 
 struct Plane {
-  float centre;  // 1/z at the pixel: 1/z is linear in the pixel for a plane
-  float slope_u;
-  float slope_v;
+  double centre;  // 1/z at the pixel: 1/z is linear in the pixel for a plane
+  double slope_u;
+  double slope_v;
 };
 
-bool fitPlane(const cv::Mat& depth, int x, int y, Plane& plane) {
-  float sum = 0.0F;
-  float sum_u = 0.0F;
-  float sum_v = 0.0F;
-  std::array<float, static_cast<std::size_t>(kPatchSize)> inverse;
-  std::size_t i = 0;
+/// Sums over the 7 rows of a patch's column: of 1/z, times the row, and squared.
+struct ColumnSums {
+  std::vector<double> inverse;
+  std::vector<double> times_row;
+  std::vector<double> squares;
+  std::vector<int> holes;
+};
+
+/// Intermediate results.
+struct Workspace {
+  ColumnSums columns;
+  std::vector<std::vector<Patch>> bins;
+  std::vector<Patch> spread;
+  std::vector<Patch> chosen;
+};
+
+/// The sums of each column around row y.
+void sumColumns(const cv::Mat& depth, int y, ColumnSums& sums) {
+  const auto width = static_cast<std::size_t>(depth.cols);
+  sums.inverse.assign(width, 0.0);
+  sums.times_row.assign(width, 0.0);
+  sums.squares.assign(width, 0.0);
+  sums.holes.assign(width, 0);
   for (int v = -kRadius; v <= kRadius; ++v) {
-    const auto* row = depth.ptr<float>(y + v) + x;
-    for (int u = -kRadius; u <= kRadius; ++u, ++i) {
-      if (row[u] <= 0.0F) return false;
-      inverse[i] = 1.0F / row[u];
-      sum += inverse[i];
-      sum_u += static_cast<float>(u) * inverse[i];
-      sum_v += static_cast<float>(v) * inverse[i];
+    const auto* row = depth.ptr<float>(y + v);
+    for (std::size_t x = 0; x < width; ++x) {
+      // A hole counts for nothing, but it spoils the patch.
+      const double inverse = 1.0 / static_cast<double>(row[x] > 0.0F ? row[x] : 1.0F);
+      sums.inverse[x] += inverse;
+      sums.times_row[x] += v * inverse;
+      sums.squares[x] += inverse * inverse;
+      sums.holes[x] += row[x] > 0.0F ? 0 : 1;
     }
+  }
+}
+
+/// The least squares plane of the patch around column x: 1, u and v are at right angles to each
+/// other over it, so the sums give the plane and what is left.
+bool fitPlane(const ColumnSums& columns, int x, Plane& plane) {
+  double sum = 0.0;
+  double sum_u = 0.0;
+  double sum_v = 0.0;
+  double squares = 0.0;
+  for (int u = -kRadius; u <= kRadius; ++u) {
+    const auto i = static_cast<std::size_t>(x + u);
+    if (columns.holes[i] != 0) return false;
+    sum += columns.inverse[i];
+    sum_u += u * columns.inverse[i];
+    sum_v += columns.times_row[i];
+    squares += columns.squares[i];
   }
   plane = {sum / kPatchSize, sum_u / kSquares, sum_v / kSquares};
-  float squares = 0.0F;
-  i = 0;
-  for (int v = -kRadius; v <= kRadius; ++v) {
-    for (int u = -kRadius; u <= kRadius; ++u, ++i) {
-      const float residual = inverse[i] - plane.centre - static_cast<float>(u) * plane.slope_u -
-                             static_cast<float>(v) * plane.slope_v;
-      squares += residual * residual;
-    }
-  }
-  const float z = 1.0F / plane.centre;
-  const float bound = kPlanar * depthDeviation(z) * plane.centre * plane.centre;  // of 1/z
-  return squares <= kPatchSize * bound * bound;
+  const double rest = squares - kPatchSize * plane.centre * plane.centre -
+                      kSquares * (plane.slope_u * plane.slope_u + plane.slope_v * plane.slope_v);
+  const auto deviation =
+      static_cast<double>(depthDeviation(static_cast<float>(1.0 / plane.centre)));
+  const double bound = kPlanar * deviation * plane.centre * plane.centre;  // of 1/z
+  return rest <= kPatchSize * bound * bound;
 }
 
 /// Point and normal of a plane in the optical frame; false when it is seen too flatly.
@@ -71,62 +103,91 @@ bool toPatch(const Plane& plane, int x, int y, const Camera& camera, Patch& patc
   scale = Eigen::Vector2d(camera.fx, camera.fy).asDiagonal() * scale;
   // 1/z = centre + g . (m - m0) in normalised coordinates m, hence g . (X, Y) + c Z = 1.
   const Eigen::Vector2d g = scale.transpose() * Eigen::Vector2d(plane.slope_u, plane.slope_v);
-  const double centre = static_cast<double>(plane.centre);
   const Eigen::Vector3d normal =
-      Eigen::Vector3d(g.x(), g.y(), centre - g.dot(ray.head<2>())).normalized();
-  patch = {ray / centre, normal};
+      Eigen::Vector3d(g.x(), g.y(), plane.centre - g.dot(ray.head<2>())).normalized();
+  patch = {ray / plane.centre, normal};
   return std::abs(normal.dot(ray)) > kMinCosine * ray.norm();
 }
 
+/// Number of the sector of 45 degrees that a direction lies in.
+int sectorOf(double x, double y) {
+  const int half = y < 0.0 ? 4 : 0;
+  if (y < 0.0) {
+    x = -x;
+    y = -y;
+  }
+  if (x > 0.0) return half + (y < x ? 0 : 1);
+  return half + (y > -x ? 2 : 3);
+}
+
 std::size_t directionBin(const Eigen::Vector3d& normal) {
-  constexpr double kPi = 3.14159265358979323846;
-  const double tilt = std::acos(std::min(1.0, std::abs(normal.z()))) / (0.5 * kPi);
-  const double turn = (std::atan2(normal.y(), normal.x()) + kPi) / (2.0 * kPi);
-  const int ring = std::min(kRings - 1, static_cast<int>(tilt * kRings));
-  const int sector = std::min(kSectors - 1, static_cast<int>(turn * kSectors));
-  return static_cast<std::size_t>(ring == 0 ? 0 : ring * kSectors + sector);
+  // Cosines of the tilts between the rings: 22.5, 45 and 67.5 degrees.
+  constexpr std::array<double, kRings - 1> kCosines = {0.92387953251128674, 0.70710678118654752,
+                                                       0.38268343236508977};
+  const double upright = std::abs(normal.z());
+  int ring = 0;
+  while (ring < kRings - 1 && upright <= kCosines[static_cast<std::size_t>(ring)]) ++ring;
+  return static_cast<std::size_t>(ring == 0 ? 0
+                                            : ring * kSectors + sectorOf(normal.x(), normal.y()));
 }
 
 /// Bin by bin the first of each, then the second of each: any number of them covers all directions.
 /// Within a bin the patches are spread over the image by a fixed stride.
-std::vector<Patch> inTurn(std::vector<std::vector<Patch>>& bins, std::size_t wanted) {
-  std::vector<Patch> chosen;
-  for (std::vector<Patch>& bin : bins) {
-    std::vector<Patch> spread;
-    spread.reserve(bin.size());
+void chooseInTurn(std::size_t wanted, Workspace& work) {
+  work.chosen.clear();
+  for (std::vector<Patch>& bin : work.bins) {
+    work.spread.clear();
     constexpr std::size_t kStride = 7;
     for (std::size_t first = 0; first < kStride; ++first) {
-      for (std::size_t i = first; i < bin.size(); i += kStride) spread.push_back(bin[i]);
+      for (std::size_t i = first; i < bin.size(); i += kStride) work.spread.push_back(bin[i]);
     }
-    bin = std::move(spread);
+    std::swap(bin, work.spread);
   }
-  for (std::size_t rank = 0; chosen.size() < wanted; ++rank) {
+  for (std::size_t rank = 0; work.chosen.size() < wanted; ++rank) {
     bool is_empty = true;
-    for (const std::vector<Patch>& bin : bins) {
+    for (const std::vector<Patch>& bin : work.bins) {
       if (rank >= bin.size()) continue;
       is_empty = false;
-      if (chosen.size() < wanted) chosen.push_back(bin[rank]);
+      if (work.chosen.size() < wanted) work.chosen.push_back(bin[rank]);
     }
     if (is_empty) break;
   }
-  return chosen;
+}
+
+/// Planar patches over the image, by the direction of their normals.
+void findPatches(const cv::Mat& depth, const Camera& camera, const RowMotion& rows,
+                 Workspace& work) {
+  work.bins.resize(static_cast<std::size_t>(kRings * kSectors));
+  for (std::vector<Patch>& bin : work.bins) bin.clear();
+  for (int y = kRadius; y + kRadius < depth.rows; y += kStep) {
+    sumColumns(depth, y, work.columns);
+    for (int x = kRadius; x + kRadius < depth.cols; x += kStep) {
+      Plane plane{};
+      Patch patch;
+      if (!fitPlane(work.columns, x, plane) || !toPatch(plane, x, y, camera, patch)) continue;
+      patch.point -= rows.displacement(patch.point, y, camera.height);
+      work.bins[directionBin(patch.normal)].push_back(patch);
+    }
+  }
+}
+
+float medianOf(const std::vector<float>& values) {
+  if (values.empty()) return 1.0F;
+  Recycled<std::vector<float>> copy;
+  *copy = values;
+  const auto middle = copy->begin() + static_cast<std::ptrdiff_t>(copy->size() / 2);
+  std::nth_element(copy->begin(), middle, copy->end());
+  return *middle;
 }
 
 }  // namespace
 
 void makeGeometricPoints(const cv::Mat& depth, const Camera& camera, const RowMotion& rows,
                          int max_points, GeometricPoints& points) {
-  std::vector<std::vector<Patch>> bins(static_cast<std::size_t>(kRings * kSectors));
-  for (int y = kRadius; y + kRadius < depth.rows; y += kStep) {
-    for (int x = kRadius; x + kRadius < depth.cols; x += kStep) {
-      Plane plane{};
-      Patch patch;
-      if (!fitPlane(depth, x, y, plane) || !toPatch(plane, x, y, camera, patch)) continue;
-      patch.point -= rows.displacement(patch.point, y, camera.height);
-      bins[directionBin(patch.normal)].push_back(patch);
-    }
-  }
-  const std::vector<Patch> chosen = inTurn(bins, static_cast<std::size_t>(max_points));
+  Recycled<Workspace> work;
+  findPatches(depth, camera, rows, *work);
+  chooseInTurn(static_cast<std::size_t>(max_points), *work);
+  const std::vector<Patch>& chosen = work->chosen;
   for (std::vector<float>* array :
        {&points.x, &points.y, &points.z, &points.nx, &points.ny, &points.nz, &points.weight}) {
     array->resize(chosen.size());
@@ -140,12 +201,7 @@ void makeGeometricPoints(const cv::Mat& depth, const Camera& camera, const RowMo
     points.nz[i] = static_cast<float>(chosen[i].normal.z());
     points.weight[i] = 1.0F / depthDeviation(points.z[i]);
   }
-  std::vector<float> depths = points.z;
-  if (!depths.empty()) {
-    std::nth_element(depths.begin(),
-                     depths.begin() + static_cast<std::ptrdiff_t>(depths.size() / 2), depths.end());
-  }
-  points.median_depth = depths.empty() ? 1.0F : depths[depths.size() / 2];
+  points.median_depth = medianOf(points.z);
 }
 
 }  // namespace mivo

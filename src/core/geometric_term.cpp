@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "mivo/core/depth_pyramid.h"
+
 namespace mivo {
 
 GeometricTerm::GeometricTerm(const GeometricPoints& points, std::size_t num_points,
@@ -44,7 +46,7 @@ void GeometricTerm::measure(const Eigen::Isometry3d& T_live_ref) {
   float* columns[6];
   for (std::size_t k = 0; k < 6; ++k) columns[k] = (*jacobian_)[k].data();
   residuals_->num_visible = kernels.geometricResiduals(
-      live, back, planes, live_.depthView(), u_->data(), v_->data(), num_points_,
+      live, back, planes, depthView(live_.frame()), u_->data(), v_->data(), num_points_,
       residuals_->visible.data(), residuals_->value.data(), columns);
   T_live_ref_ = T_live_ref;
   is_measured_ = true;

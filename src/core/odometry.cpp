@@ -83,6 +83,7 @@ class Odometry::Implementation {
 
   MotionModel motion_;
   ReadoutEstimator readout_;
+  Keyframe candidate_;  // for the next keyframe: the last but one, whose memory serves again
   KeyframeQuality first_quality_;  // of the first frame tracked against the keyframe
   Eigen::Isometry3d T_odom_camera_ = Eigen::Isometry3d::Identity();  // last pose to be trusted
   double pose_stamp_ = 0.0;
@@ -269,11 +270,10 @@ bool Odometry::Implementation::makeKeyframe(const Eigen::Isometry3d& T_odom_came
                                             const Vector6& twist_per_period) {
   const double begin = threadMilliseconds();
   readout_.endKeyframe();
-  Keyframe candidate;
-  candidate.build(live_, camera_, twist_per_period, readout(), parameters_);
+  candidate_.build(live_, camera_, twist_per_period, readout(), parameters_);
   result_.milliseconds.keyframe = threadMilliseconds() - begin;
-  if (candidate.numPoints() < static_cast<std::size_t>(parameters_.lost_points)) return false;
-  keyframe_ = std::move(candidate);
+  if (candidate_.numPoints() < static_cast<std::size_t>(parameters_.lost_points)) return false;
+  std::swap(keyframe_, candidate_);
   has_keyframe_ = true;
   keyframe_is_outdated_ = false;
   T_odom_keyframe_ = T_odom_camera;

@@ -7,7 +7,6 @@
 #include <functional>
 #include <limits>
 
-#include "mivo/core/depth_pyramid.h"
 #include "mivo/core/image_view.h"
 #include "mivo/core/kernels/kernels.h"
 #include "mivo/core/recycled.h"
@@ -19,31 +18,30 @@ namespace {
 /// image. Squared gradients are not negative, so their bits grow with them.
 using Rank = std::uint64_t;
 
-Rank rankOf(float strength, int pixel) {
+Rank rankOf(float strength, std::uint32_t pixel) {
   std::uint32_t bits = 0;
   std::memcpy(&bits, &strength, sizeof(bits));
-  return (static_cast<Rank>(bits) << 32U) | (0xFFFFFFFFU - static_cast<std::uint32_t>(pixel));
+  return (static_cast<Rank>(bits) << 32U) | (0xFFFFFFFFU - pixel);
 }
 
 struct Candidate {
   Rank rank;
-  Pixel pixel;
+  std::uint32_t pixel;  // number in the image
+  std::uint32_t cell;
 };
 
 using Cell = std::vector<Rank>;
 
 /// Intermediate results of a selection.
 struct Workspace {
-  std::vector<float> squared[3];  // gradients of three rows
-  std::vector<std::uint8_t> maximal;
+  std::vector<float> squared[3];         // gradients of three rows
+  std::vector<std::uint32_t> column_of;  // of cells, for each pixel of a row
+  std::vector<std::uint8_t> marks;       // of the candidates of one row
+  std::size_t num_candidates = 0;
   std::vector<Candidate> candidates;  // in reading order
   std::vector<Cell> cells;
   std::vector<Rank> weakest;  // of the chosen ones of a cell
 };
-
-int cellOf(const Pixel& pixel, int columns, int cell_size) {
-  return pixel.y / cell_size * columns + pixel.x / cell_size;
-}
 
 /// Largest number per cell whose sum over the cells does not exceed `wanted`.
 std::size_t quotaPerCell(const std::vector<Cell>& cells, std::size_t wanted) {
@@ -62,25 +60,45 @@ std::size_t quotaPerCell(const std::vector<Cell>& cells, std::size_t wanted) {
   return low;
 }
 
-/// Adds the candidates of one row, whose gradients are squared[1].
-void addCandidates(const cv::Mat& depth, int y, const float* squared, const std::uint8_t* maximal,
-                   float edge_ratio, std::vector<Candidate>& candidates) {
-  const int width = depth.cols;
-  for (int x = 2; x + 2 < width; ++x) {
-    if (maximal[x] == 0 || !isSmoothDepth(depth, x, y, edge_ratio)) continue;
-    candidates.push_back({rankOf(squared[x], y * width + x), {x, y}});
+/// Adds what is marked in a row. @param first_cell of the row of cells.
+void addCandidates(int y, std::uint32_t first_cell, const float* squared, Workspace& work) {
+  // Whole eights without a mark are passed over. In the others each pixel is written and counted
+  // only if it is marked: a processor cannot foresee the marks, so no branch asks for them.
+  constexpr std::size_t kTogether = 8;
+  const std::size_t width = work.marks.size();
+  const auto first_pixel = static_cast<std::uint32_t>(y) * static_cast<std::uint32_t>(width);
+  std::size_t count = work.num_candidates;
+  if (work.candidates.size() < count + width + 1) {
+    work.candidates.resize(2 * (count + width + 1));
   }
+  Candidate* candidates = work.candidates.data();
+  for (std::size_t x = 0; x < width;) {
+    std::uint64_t marked = 1;
+    if (x + kTogether <= width) std::memcpy(&marked, work.marks.data() + x, kTogether);
+    const std::size_t end = std::min(width, x + kTogether);
+    for (; marked != 0 && x < end; ++x) {
+      const std::uint32_t pixel = first_pixel + static_cast<std::uint32_t>(x);
+      candidates[count] = {rankOf(squared[x], pixel), pixel, first_cell + work.column_of[x]};
+      count += work.marks[x];
+    }
+    x = end;
+  }
+  work.num_candidates = count;
 }
 
 /// All salient pixels on smooth surfaces, in reading order.
 void findCandidates(const cv::Mat& image, const cv::Mat& depth, const SelectionLimits& limits,
-                    Workspace& work) {
+                    int cell_columns, Workspace& work) {
   const kernels::Kernels& kernels = kernels::active();
   const kernels::ImageView pixels = view(image);
   const float threshold = limits.min_gradient * limits.min_gradient;
   for (std::vector<float>& row : work.squared) row.resize(static_cast<std::size_t>(image.cols));
-  work.maximal.resize(static_cast<std::size_t>(image.cols));
-  work.candidates.clear();
+  work.marks.resize(static_cast<std::size_t>(image.cols));
+  work.column_of.resize(static_cast<std::size_t>(image.cols));
+  for (int x = 0; x < image.cols; ++x) {
+    work.column_of[static_cast<std::size_t>(x)] = static_cast<std::uint32_t>(x / limits.cell_size);
+  }
+  work.num_candidates = 0;
   const auto rowOf = [&](int y) { return work.squared[y % 3].data(); };
   // The second derivatives of a point need its eight neighbours, the maximum test their gradients.
   for (int y = 1; y + 1 < image.rows; ++y) {
@@ -88,9 +106,12 @@ void findCandidates(const cv::Mat& image, const cv::Mat& depth, const SelectionL
     const int middle = y - 1;
     if (middle < 2) continue;
     const float* const rows[3] = {rowOf(middle - 1), rowOf(middle), rowOf(y)};
-    kernels.maximaRow(pixels, middle, rows, threshold, work.maximal.data());
-    addCandidates(depth, middle, rows[1], work.maximal.data(), limits.depth_edge_ratio,
-                  work.candidates);
+    kernels.maximaRow(pixels, middle, rows, threshold, work.marks.data());
+    const float* const depths[3] = {depth.ptr<float>(middle - 1), depth.ptr<float>(middle),
+                                    depth.ptr<float>(middle + 1)};
+    kernels.keepSmooth(depths, image.cols, limits.depth_edge_ratio, 2, work.marks.data());
+    addCandidates(middle, static_cast<std::uint32_t>(middle / limits.cell_size * cell_columns),
+                  rows[1], work);
   }
 }
 
@@ -114,21 +135,21 @@ void selectSalient(const cv::Mat& image, const cv::Mat& depth, const SelectionLi
   pixels.clear();
   Recycled<Workspace> recycled;
   Workspace& work = *recycled;
-  findCandidates(image, depth, limits, work);
   const int columns = (image.cols + limits.cell_size - 1) / limits.cell_size;
   const int rows = (image.rows + limits.cell_size - 1) / limits.cell_size;
+  findCandidates(image, depth, limits, columns, work);
   work.cells.resize(static_cast<std::size_t>(columns * rows));
   for (Cell& cell : work.cells) cell.clear();
-  for (const Candidate& candidate : work.candidates) {
-    const int cell = cellOf(candidate.pixel, columns, limits.cell_size);
-    work.cells[static_cast<std::size_t>(cell)].push_back(candidate.rank);
+  for (std::size_t i = 0; i < work.num_candidates; ++i) {
+    work.cells[work.candidates[i].cell].push_back(work.candidates[i].rank);
   }
   findWeakest(quotaPerCell(work.cells, static_cast<std::size_t>(limits.num_points)), work);
-  for (const Candidate& candidate : work.candidates) {
-    const int cell = cellOf(candidate.pixel, columns, limits.cell_size);
-    if (candidate.rank >= work.weakest[static_cast<std::size_t>(cell)]) {
-      pixels.push_back(candidate.pixel);
-    }
+  const auto width = static_cast<std::uint32_t>(image.cols);
+  for (std::size_t i = 0; i < work.num_candidates; ++i) {
+    const Candidate& candidate = work.candidates[i];
+    if (candidate.rank < work.weakest[candidate.cell]) continue;
+    pixels.push_back(
+        {static_cast<int>(candidate.pixel % width), static_cast<int>(candidate.pixel / width)});
   }
 }
 

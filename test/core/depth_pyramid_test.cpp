@@ -5,6 +5,8 @@
 
 #include <limits>
 
+#include "mivo/core/kernels/kernels.h"
+
 namespace mivo {
 namespace {
 
@@ -100,6 +102,15 @@ TEST(DepthPyramidTest, OddSizesKeepTheirLastPixel) {
   EXPECT_EQ(pyramid.level(1).size(), cv::Size(7, 6));
   EXPECT_EQ(pyramid.level(2).size(), cv::Size(4, 3));
   EXPECT_EQ(pyramid.level(2).at<float>(2, 3), 3.0F);
+}
+
+/// Whether the reference keeps a candidate at a pixel.
+bool isSmoothDepth(const cv::Mat& depth, int x, int y, float edge_ratio) {
+  std::vector<std::uint8_t> candidates(static_cast<std::size_t>(depth.cols), 1);
+  const float* const rows[3] = {depth.ptr<float>(y - 1), depth.ptr<float>(y),
+                                depth.ptr<float>(y + 1)};
+  kernels::scalar().keepSmooth(rows, depth.cols, edge_ratio, 1, candidates.data());
+  return candidates[static_cast<std::size_t>(x)] != 0;
 }
 
 TEST(SmoothDepthTest, AHoleOrAnEdgeInTheNeighbourhoodIsNotSmooth) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "mivo/core/frame.h"
+#include "mivo/core/kernels/image_view.h"
 
 namespace mivo {
 
@@ -24,13 +25,12 @@ class DepthPyramid {
   std::vector<cv::Mat> levels_;
 };
 
+/// The readings of a frame as the kernels see them.
+kernels::DepthView depthView(const Frame& frame);
+
 /// One reading in metres, 0 for none: the conversion that all of mivo uses.
 inline float depthInMetres(unsigned short raw, float unit) {
   return static_cast<float>(raw) * unit;
 }
-
-/// Whether the 3 x 3 around (x, y), which must not touch the border, has no hole and spans at most
-/// edge_ratio of the depth in its middle.
-bool isSmoothDepth(const cv::Mat& depth, int x, int y, float edge_ratio);
 
 }  // namespace mivo

@@ -40,11 +40,6 @@ class FramePyramid {
   /// much there is to see.
   double contrastInView() const;
 
-  /// Depth at a pixel of level 0, metres; 0 for no reading.
-  float depthAt(int x, int y) const;
-  /// Readings of level 0 as the kernels see them.
-  kernels::DepthView depthView() const;
-
  private:
   Frame frame_;
   ImagePyramid images_;

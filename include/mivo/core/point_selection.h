@@ -16,7 +16,7 @@ struct SelectionLimits {
   int num_points;          ///< to choose at most
   float min_gradient;      ///< grey levels per pixel
   int cell_size;           ///< pixels; the points are spread evenly over cells of this side
-  float depth_edge_ratio;  ///< see isSmoothDepth
+  float depth_edge_ratio;  ///< a point's 3 x 3 readings span at most this share of its depth
 };
 
 /// The salient pixels of a level (section III-C): gradient above a threshold, maximal along its

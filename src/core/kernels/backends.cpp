@@ -23,7 +23,8 @@ const Kernels& scalar() {
       reference::sumPairs,       reference::geometricResiduals, reference::binPositions,
       reference::jointHistogram, reference::logarithms,         reference::informationDerivatives,
       reference::reduce,         reference::contrastMap,        reference::normaliseImage,
-      reference::gradientRow,    reference::maximaRow,          reference::keyframePoints,
+      reference::gradientRow,    reference::maximaRow,          reference::depthRow,
+      reference::reduceDepthRow, reference::keepSmooth,         reference::keyframePoints,
   };
   return kernels;
 }

@@ -45,6 +45,12 @@ void informationDerivatives(const BinsView& reference, const BinsView& live, con
 void keyframePoints(const WarpParameters& camera, const PixelsView& pixels, std::size_t n,
                     const DerivedPoints& points, double pixel_motion[21]);
 
+void depthRow(const DepthView& depth, int y, int first, int width, float lowest, float highest,
+              float* metres);
+void reduceDepthRow(const DepthRows& fine, int width, float ratio, int first, float* coarse);
+void keepSmooth(const float* const depth[3], int width, float edge_ratio, int first,
+                std::uint8_t* candidates);
+
 void reduce(const ImageView& fine, float* coarse, std::ptrdiff_t coarse_stride, float* scratch);
 double contrastMap(const ImageView& image, float* pairs, std::ptrdiff_t pairs_stride,
                    float* scratch);

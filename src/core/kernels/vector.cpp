@@ -32,6 +32,8 @@
 #include "kernels/vector_images-inl.h"
 //
 #include "kernels/vector_keyframe-inl.h"
+//
+#include "kernels/vector_depth-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mivo {
@@ -45,7 +47,8 @@ const Kernels& table() {
       sumPairs,       geometricResiduals, binPositions,
       jointHistogram, logarithms,         informationDerivatives,
       reduce,         contrastMap,        normaliseImage,
-      gradientRow,    maximaRow,          keyframePoints,
+      gradientRow,    maximaRow,          depthRow,
+      reduceDepthRow, keepSmooth,         keyframePoints,
   };
   return kernels;
 }

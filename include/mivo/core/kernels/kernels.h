@@ -98,6 +98,13 @@ struct DerivedPoints {
   }
 };
 
+/// The two or three rows of a depth image around one of them, metres, 0 for no reading.
+struct DepthRows {
+  const float* row[3];
+  int count;
+  int middle;  ///< index of the row in the middle
+};
+
 /// A row-major rigid motion.
 struct Motion {
   float rotation[9];
@@ -209,6 +216,21 @@ struct Kernels {
   /// those of the rows y - 1, y, y + 1.
   void (*maximaRow)(const ImageView& image, int y, const float* const squared[3], float threshold,
                     std::uint8_t* maximal);
+
+  /// One row of readings in metres, from column `first` on; 0 for those outside of lowest..highest.
+  void (*depthRow)(const DepthView& depth, int y, int first, int width, float lowest, float highest,
+                   float* metres);
+
+  /// One row of half the width, rounded up, from its column `first` on: 0 where the reading in the
+  /// middle is none, otherwise the mean of those of the 3 x 3 readings around it that differ from
+  /// it by at most `ratio` of it. The rows have `width` entries.
+  void (*reduceDepthRow)(const DepthRows& fine, int width, float ratio, int first, float* coarse);
+
+  /// Sets to 0 what is not on a smooth surface, for 1 <= first <= x < width - 1: where one of the
+  /// 3 x 3 readings is missing, or they span more than `edge_ratio` of that in the middle.
+  /// @param candidates bytes, 0 or 1
+  void (*keepSmooth)(const float* const depth[3], int width, float edge_ratio, int first,
+                     std::uint8_t* candidates);
 
   /// Points of a keyframe, moved to where they were when the middle row was read, with the first
   /// and, where the image's second derivatives are given, second derivatives of their intensity
