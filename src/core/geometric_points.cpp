@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "mivo/core/recycled.h"
@@ -40,34 +41,75 @@ struct ColumnSums {
   std::vector<double> inverse;
   std::vector<double> times_row;
   std::vector<double> squares;
-  std::vector<int> holes;
 };
 
-/// Intermediate results.
+/// Rays through the middle of the patches, and the derivative of pixels with respect to them: of a
+/// camera with a lens they are costly, and the camera stays the same.
+struct PatchRays {
+  Camera camera;
+  std::vector<Eigen::Vector3d> ray;  // row by row
+  std::vector<Eigen::Matrix2d> scale;
+};
+
+/// Intermediate results, and what can be used again for the next keyframe.
 struct Workspace {
+  PatchRays rays;
+  std::vector<double> inverse;  // 1/z of the whole image, NaN for holes
   ColumnSums columns;
   std::vector<std::vector<Patch>> bins;
   std::vector<Patch> spread;
   std::vector<Patch> chosen;
 };
 
-/// The sums of each column around row y.
-void sumColumns(const cv::Mat& depth, int y, ColumnSums& sums) {
-  const auto width = static_cast<std::size_t>(depth.cols);
-  sums.inverse.assign(width, 0.0);
-  sums.times_row.assign(width, 0.0);
-  sums.squares.assign(width, 0.0);
-  sums.holes.assign(width, 0);
-  for (int v = -kRadius; v <= kRadius; ++v) {
-    const auto* row = depth.ptr<float>(y + v);
-    for (std::size_t x = 0; x < width; ++x) {
-      // A hole counts for nothing, but it spoils the patch.
-      const double inverse = 1.0 / static_cast<double>(row[x] > 0.0F ? row[x] : 1.0F);
-      sums.inverse[x] += inverse;
-      sums.times_row[x] += v * inverse;
-      sums.squares[x] += inverse * inverse;
-      sums.holes[x] += row[x] > 0.0F ? 0 : 1;
+void findRays(const Camera& camera, PatchRays& rays) {
+  if (rays.camera == camera) return;
+  rays.camera = camera;
+  rays.ray.clear();
+  rays.scale.clear();
+  for (int y = kRadius; y + kRadius < camera.height; y += kStep) {
+    for (int x = kRadius; x + kRadius < camera.width; x += kStep) {
+      rays.ray.push_back(camera.ray({x, y}));
+      Eigen::Matrix2d scale = Eigen::Matrix2d::Identity();
+      if (!camera.distortion.isZero()) camera.distort(rays.ray.back().head<2>(), &scale);
+      rays.scale.emplace_back(Eigen::Vector2d(camera.fx, camera.fy).asDiagonal() * scale);
     }
+  }
+}
+
+/// A hole makes every sum it gets into NaN.
+void invert(const cv::Mat& depth, std::vector<double>& inverse) {
+  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+  inverse.resize(depth.total());
+  double* out = inverse.data();
+  for (int y = 0; y < depth.rows; ++y, out += depth.cols) {
+    const auto* row = depth.ptr<float>(y);
+    for (int x = 0; x < depth.cols; ++x) {
+      out[x] = row[x] > 0.0F ? 1.0 / static_cast<double>(row[x]) : kNan;
+    }
+  }
+}
+
+/// The sums of each column around row y.
+void sumColumns(const std::vector<double>& inverse, int y, std::size_t width, ColumnSums& sums) {
+  sums.inverse.resize(width);
+  sums.times_row.resize(width);
+  sums.squares.resize(width);
+  static_assert(kRadius == 3, "seven rows are added below");
+  const double* middle = inverse.data() + static_cast<std::size_t>(y) * width;
+  const auto stride = static_cast<std::ptrdiff_t>(width);
+  for (std::ptrdiff_t x = 0; x < stride; ++x) {
+    const double* at = middle + x;
+    const double a = at[-3 * stride];
+    const double b = at[-2 * stride];
+    const double c = at[-stride];
+    const double d = at[0];
+    const double e = at[stride];
+    const double f = at[2 * stride];
+    const double g = at[3 * stride];
+    const auto i = static_cast<std::size_t>(x);
+    sums.inverse[i] = a + b + c + d + e + f + g;
+    sums.times_row[i] = 3.0 * (g - a) + 2.0 * (f - b) + (e - c);
+    sums.squares[i] = a * a + b * b + c * c + d * d + e * e + f * f + g * g;
   }
 }
 
@@ -80,7 +122,6 @@ bool fitPlane(const ColumnSums& columns, int x, Plane& plane) {
   double squares = 0.0;
   for (int u = -kRadius; u <= kRadius; ++u) {
     const auto i = static_cast<std::size_t>(x + u);
-    if (columns.holes[i] != 0) return false;
     sum += columns.inverse[i];
     sum_u += u * columns.inverse[i];
     sum_v += columns.times_row[i];
@@ -92,15 +133,12 @@ bool fitPlane(const ColumnSums& columns, int x, Plane& plane) {
   const auto deviation =
       static_cast<double>(depthDeviation(static_cast<float>(1.0 / plane.centre)));
   const double bound = kPlanar * deviation * plane.centre * plane.centre;  // of 1/z
-  return rest <= kPatchSize * bound * bound;
+  return rest <= kPatchSize * bound * bound;                               // false for NaN
 }
 
 /// Point and normal of a plane in the optical frame; false when it is seen too flatly.
-bool toPatch(const Plane& plane, int x, int y, const Camera& camera, Patch& patch) {
-  const Eigen::Vector3d ray = camera.ray({x, y});
-  Eigen::Matrix2d scale = Eigen::Matrix2d::Identity();
-  if (!camera.distortion.isZero()) camera.distort(ray.head<2>(), &scale);
-  scale = Eigen::Vector2d(camera.fx, camera.fy).asDiagonal() * scale;
+bool toPatch(const Plane& plane, const Eigen::Vector3d& ray, const Eigen::Matrix2d& scale,
+             Patch& patch) {
   // 1/z = centre + g . (m - m0) in normalised coordinates m, hence g . (X, Y) + c Z = 1.
   const Eigen::Vector2d g = scale.transpose() * Eigen::Vector2d(plane.slope_u, plane.slope_v);
   const Eigen::Vector3d normal =
@@ -159,12 +197,18 @@ void findPatches(const cv::Mat& depth, const Camera& camera, const RowMotion& ro
                  Workspace& work) {
   work.bins.resize(static_cast<std::size_t>(kRings * kSectors));
   for (std::vector<Patch>& bin : work.bins) bin.clear();
+  findRays(camera, work.rays);
+  invert(depth, work.inverse);
+  std::size_t i = 0;
   for (int y = kRadius; y + kRadius < depth.rows; y += kStep) {
-    sumColumns(depth, y, work.columns);
-    for (int x = kRadius; x + kRadius < depth.cols; x += kStep) {
+    sumColumns(work.inverse, y, static_cast<std::size_t>(depth.cols), work.columns);
+    for (int x = kRadius; x + kRadius < depth.cols; x += kStep, ++i) {
       Plane plane{};
       Patch patch;
-      if (!fitPlane(work.columns, x, plane) || !toPatch(plane, x, y, camera, patch)) continue;
+      if (!fitPlane(work.columns, x, plane) ||
+          !toPatch(plane, work.rays.ray[i], work.rays.scale[i], patch)) {
+        continue;
+      }
       patch.point -= rows.displacement(patch.point, y, camera.height);
       work.bins[directionBin(patch.normal)].push_back(patch);
     }

@@ -26,11 +26,28 @@ Rank rankOf(float strength, std::uint32_t pixel) {
 
 struct Candidate {
   Rank rank;
-  std::uint32_t pixel;  // number in the image
+  std::uint16_t x;
+  std::uint16_t y;
   std::uint32_t cell;
 };
 
-using Cell = std::vector<Rank>;
+// Ranks are counted by the leading bits of their strength: 8 steps in each octave from 2^-8 to 2^24
+// and the two ends. The last rank to be chosen is then sought among few.
+constexpr std::uint32_t kSteps = 256;
+constexpr std::uint32_t kShift = 52;  // of a rank: 32 bits of the pixel and 20 of the mantissa
+constexpr std::uint32_t kFirstStep = (127U - 8U) << 3U;
+
+std::uint32_t stepOf(Rank rank) {
+  const auto leading = static_cast<std::uint32_t>(rank >> kShift);
+  return leading < kFirstStep ? 0U : std::min(leading - kFirstStep, kSteps - 1U);
+}
+
+struct Cell {
+  std::uint32_t size;       // candidates in it
+  std::uint32_t last_step;  // in which the last one is chosen
+  std::uint32_t rest;       // how many of this step are chosen
+  Rank weakest;             // of the chosen ones
+};
 
 /// Intermediate results of a selection.
 struct Workspace {
@@ -40,17 +57,18 @@ struct Workspace {
   std::size_t num_candidates = 0;
   std::vector<Candidate> candidates;  // in reading order
   std::vector<Cell> cells;
-  std::vector<Rank> weakest;  // of the chosen ones of a cell
+  std::vector<std::uint32_t> counts;     // kSteps for each cell
+  std::vector<std::vector<Rank>> ranks;  // of the last step of each cell
 };
 
 /// Largest number per cell whose sum over the cells does not exceed `wanted`.
-std::size_t quotaPerCell(const std::vector<Cell>& cells, std::size_t wanted) {
-  std::size_t low = 0;
-  std::size_t high = wanted;
+std::uint32_t quotaPerCell(const std::vector<Cell>& cells, std::uint32_t wanted) {
+  std::uint32_t low = 0;
+  std::uint32_t high = wanted;
   while (low < high) {
-    const std::size_t middle = (low + high + 1) / 2;
-    std::size_t sum = 0;
-    for (const Cell& cell : cells) sum += std::min(cell.size(), middle);
+    const std::uint32_t middle = low + (high - low + 1) / 2;
+    std::uint64_t sum = 0;
+    for (const Cell& cell : cells) sum += std::min(cell.size, middle);
     if (sum <= wanted) {
       low = middle;
     } else {
@@ -78,7 +96,8 @@ void addCandidates(int y, std::uint32_t first_cell, const float* squared, Worksp
     const std::size_t end = std::min(width, x + kTogether);
     for (; marked != 0 && x < end; ++x) {
       const std::uint32_t pixel = first_pixel + static_cast<std::uint32_t>(x);
-      candidates[count] = {rankOf(squared[x], pixel), pixel, first_cell + work.column_of[x]};
+      candidates[count] = {rankOf(squared[x], pixel), static_cast<std::uint16_t>(x),
+                           static_cast<std::uint16_t>(y), first_cell + work.column_of[x]};
       count += work.marks[x];
     }
     x = end;
@@ -115,16 +134,51 @@ void findCandidates(const cv::Mat& image, const cv::Mat& depth, const SelectionL
   }
 }
 
+void countCandidates(std::size_t num_cells, Workspace& work) {
+  work.cells.assign(num_cells, Cell{});
+  work.counts.assign(num_cells * kSteps, 0);
+  for (std::size_t i = 0; i < work.num_candidates; ++i) {
+    const Candidate& candidate = work.candidates[i];
+    ++work.cells[candidate.cell].size;
+    ++work.counts[candidate.cell * kSteps + stepOf(candidate.rank)];
+  }
+}
+
+/// The step in which a cell fills its quota; none when it has no more candidates than that.
+void findLastStep(const std::uint32_t* counts, std::uint32_t quota, Cell& cell) {
+  cell.last_step = kSteps;  // none
+  if (cell.size <= quota) return;
+  std::uint32_t rest = quota;
+  std::uint32_t step = kSteps - 1;
+  while (counts[step] < rest) rest -= counts[step--];
+  cell.last_step = step;
+  cell.rest = rest;
+}
+
 /// The weakest rank of each cell that still is among its `quota` first ones.
-void findWeakest(std::size_t quota, Workspace& work) {
-  work.weakest.assign(work.cells.size(), 0);
+void findWeakest(std::uint32_t quota, Workspace& work) {
+  work.ranks.resize(std::max(work.ranks.size(), work.cells.size()));
+  for (std::size_t c = 0; c < work.cells.size(); ++c) {
+    findLastStep(work.counts.data() + c * kSteps, quota, work.cells[c]);
+    work.ranks[c].clear();
+  }
+  for (std::size_t i = 0; i < work.num_candidates; ++i) {
+    const Candidate& candidate = work.candidates[i];
+    if (stepOf(candidate.rank) == work.cells[candidate.cell].last_step) {
+      work.ranks[candidate.cell].push_back(candidate.rank);
+    }
+  }
   for (std::size_t c = 0; c < work.cells.size(); ++c) {
     Cell& cell = work.cells[c];
-    if (quota == 0) work.weakest[c] = std::numeric_limits<Rank>::max();
-    if (quota == 0 || cell.size() <= quota) continue;
-    const auto last = cell.begin() + static_cast<std::ptrdiff_t>(quota - 1);
-    std::nth_element(cell.begin(), last, cell.end(), std::greater<Rank>());
-    work.weakest[c] = *last;
+    if (cell.last_step == kSteps) continue;  // all are chosen
+    if (cell.rest == 0) {                    // none is: the quota is 0
+      cell.weakest = std::numeric_limits<Rank>::max();
+      continue;
+    }
+    std::vector<Rank>& ranks = work.ranks[c];
+    const auto last = ranks.begin() + static_cast<std::ptrdiff_t>(cell.rest - 1);
+    std::nth_element(ranks.begin(), last, ranks.end(), std::greater<Rank>());
+    cell.weakest = *last;
   }
 }
 
@@ -132,25 +186,22 @@ void findWeakest(std::size_t quota, Workspace& work) {
 
 void selectSalient(const cv::Mat& image, const cv::Mat& depth, const SelectionLimits& limits,
                    std::vector<Pixel>& pixels) {
-  pixels.clear();
   Recycled<Workspace> recycled;
   Workspace& work = *recycled;
   const int columns = (image.cols + limits.cell_size - 1) / limits.cell_size;
   const int rows = (image.rows + limits.cell_size - 1) / limits.cell_size;
   findCandidates(image, depth, limits, columns, work);
-  work.cells.resize(static_cast<std::size_t>(columns * rows));
-  for (Cell& cell : work.cells) cell.clear();
-  for (std::size_t i = 0; i < work.num_candidates; ++i) {
-    work.cells[work.candidates[i].cell].push_back(work.candidates[i].rank);
-  }
-  findWeakest(quotaPerCell(work.cells, static_cast<std::size_t>(limits.num_points)), work);
-  const auto width = static_cast<std::uint32_t>(image.cols);
+  countCandidates(static_cast<std::size_t>(columns * rows), work);
+  findWeakest(quotaPerCell(work.cells, static_cast<std::uint32_t>(limits.num_points)), work);
+  // Again without a branch that nothing foresees.
+  std::size_t count = 0;
+  pixels.resize(work.num_candidates + 1);
   for (std::size_t i = 0; i < work.num_candidates; ++i) {
     const Candidate& candidate = work.candidates[i];
-    if (candidate.rank < work.weakest[candidate.cell]) continue;
-    pixels.push_back(
-        {static_cast<int>(candidate.pixel % width), static_cast<int>(candidate.pixel / width)});
+    pixels[count] = {candidate.x, candidate.y};
+    count += candidate.rank >= work.cells[candidate.cell].weakest ? 1U : 0U;
   }
+  pixels.resize(count);
 }
 
 void selectAll(const cv::Mat& depth, std::vector<Pixel>& pixels) {
