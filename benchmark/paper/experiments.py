@@ -56,18 +56,20 @@ class Experiments:
     # ---- Tracking runs
 
     def add_runs(self):
+        moving = [key for keys in self.plan.table_2.values() for key in keys]
+        static = [key for keys in self.plan.static.values() for key in keys]
+        for method in self.variants:
+            for key in moving:
+                self.track("moving", key, method)
+            for key in static:
+                self.track("disturbed", key, method, FIRST + DISTURB)
         for method in plans.PAPER_METHODS:
-            self.track("eight", self.plan.ideal, method)
-            for keys in self.plan.table_2.values():
-                for key in keys:
-                    self.track("eight", key, method)
-            for keys in self.plan.static.values():
-                for key in keys:
-                    self.track("first", key, method, FIRST)
-                    self.track("disturbed", key, method, FIRST + DISTURB)
+            self.track("moving", self.plan.ideal, method)
+            for key in static:
+                self.track("first", key, method, FIRST)
         for key in self.plan.beyond + sorted(self.recordings):
             for method in self.variants:
-                self.track("beyond", key, method)
+                self.track("drift", key, method)
             if self.has_peers:
                 for peer, _ in plans.PEERS:
                     self.track_peer(key, peer)
@@ -83,15 +85,15 @@ class Experiments:
                  [command] + self.judge(kind, key, path), after=self.after(key))
 
     def track_peer(self, key, peer):
-        path = lambda ending: self.run_path("beyond", key, "peer_" + peer, ending)
+        path = lambda ending: self.run_path("drift", key, "peer_" + peer, ending)
         command = [self.program("run_peer"), self.sequence(key), "--output", path("txt"), "--force",
                    "--method", peer, ">", path("summary")]
-        self.add("track/beyond/%s/peer_%s" % (key, peer),
-                 [command] + self.judge("beyond", key, path), after=self.after(key))
+        self.add("track/drift/%s/peer_%s" % (key, peer),
+                 [command] + self.judge("drift", key, path), after=self.after(key))
 
     def judge(self, kind, key, path):
         truth = os.path.join(self.sequence(key), "groundtruth.txt")
-        if kind == "beyond":  # drift over a second
+        if kind == "drift":  # drift over a second
             return [[self.program("evaluate_trajectory"), truth, path("txt"), "--json", path("json"),
                      "--force"]]
         options = FIRST if kind in ("first", "disturbed") else []

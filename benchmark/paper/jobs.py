@@ -41,10 +41,14 @@ class Folder:
         return os.path.join(self.path, *parts)
 
     def program_key(self, path):
-        """Hash of an executable: results of another build are not taken for this one's."""
+        """Hash of an executable and of mivo's libraries behind it: results of another build are not
+        taken for this one's."""
         if path not in self.programs:
-            with open(path, "rb") as program:
-                self.programs[path] = hashlib.sha256(program.read()).hexdigest()
+            digest = hashlib.sha256()
+            for name in [path] + own_libraries(path):
+                with open(name, "rb") as code:
+                    digest.update(code.read())
+            self.programs[path] = digest.hexdigest()
         return self.programs[path]
 
     def key(self, job):
@@ -76,6 +80,14 @@ class Folder:
         with open(temporary, "w", encoding="utf-8") as note:
             note.write(text + "\n")
         os.replace(temporary, self.note(job))
+
+
+def own_libraries(program):
+    """Shared libraries of mivo that a program loads; none when it is linked statically."""
+    listed = subprocess.run(["ldd", program], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+                            universal_newlines=True, check=False).stdout
+    paths = [line.split(" => ")[1].split(" (")[0] for line in listed.splitlines() if " => " in line]
+    return sorted(path for path in paths if os.path.basename(path).startswith("libmivo"))
 
 
 def run_command(command, folder, name):

@@ -4,6 +4,7 @@
 import datetime
 import os
 import platform
+import subprocess
 
 import numpy as np
 
@@ -55,6 +56,14 @@ def processor():
     return platform.machine()
 
 
+def commit():
+    """The version that was measured, when this is a clone."""
+    found = subprocess.run(["git", "-C", plans.ROOT, "rev-parse", "--short", "HEAD"],
+                           stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+                           universal_newlines=True, check=False)
+    return ", commit " + found.stdout.strip() if found.returncode == 0 else ""
+
+
 class Report:
     """The text, section by section, and the figures beside it."""
 
@@ -102,11 +111,12 @@ class Report:
             "Information*, 2016, on sequences that mivo films itself, by the tracker that the nodelet "
             "runs. This page is written by", "    scripts/reproduce_paper%s" % (
                 " --quick" if plan.quick else ""),
-            "on %s (%d cores), %s%s. Sequences have %d frames at 30 Hz%s; their options and "
+            "on %s (%d cores), %s%s%s. Sequences have %d frames at 30 Hz%s; their options and "
             "seeds stand at the end. The paper's sequences are recordings of a real camera and of "
             "another synthetic room: its numbers are printed beside ours to compare the order of "
             "the methods, not the digits." % (
                 processor(), os.cpu_count(), datetime.date.today().isoformat(),
+                commit(),
                 ", %d minutes" % self.minutes if self.minutes else "", plan.frames,
                 ", 320 x 240" if plan.quick else ", 640 x 480"),
             "*MI*, *SSD* and *hybrid* are the paper's methods on raw intensities (`method` with "
@@ -124,7 +134,7 @@ class Report:
         key = self.plan.ideal
         rows = []
         for method in plans.PAPER_METHODS:
-            errors = self.results.errors("eight", [key], method)
+            errors = self.results.errors("moving", [key], method)
             rows.append((method.title, cell(errors), number(1e3 * np.median(errors.translation)),
                          number(1e3 * np.median(errors.rotation)), errors.lost))
         self.add("## Errors on an ideal sequence (IV-B1, Fig. 2)",
@@ -277,6 +287,24 @@ class Report:
                  self.drift_table(self.plan.beyond,
                                   [self.plan.sequences[key].title for key in self.plan.beyond]),
                  remarks("beyond"))
+        self.add("### Tables II and III for all of them",
+                 "Mean error, mm / mrad, lost frames in brackets; the static camera from a start 5 mm and "
+                 "5 mrad away.", self.variant_table())
+
+    def variant_table(self):
+        """Mean errors of the variants on the sequences of Tables II and III."""
+        cases = [("%ss, %s" % case, "moving", keys) for case, keys in self.plan.table_2.items()]
+        cases += [(case.upper(), "disturbed", keys) for case, keys in self.plan.static.items()]
+        rows = []
+        for method in self.results.experiments.variants:
+            row = [method.title]
+            for _, kind, keys in cases:
+                errors = self.results.errors(kind, keys, method)
+                row.append("%s / %s%s" % (number(1e3 * errors.translation.mean()),
+                                          number(1e3 * errors.rotation.mean()),
+                                          " (%d)" % errors.lost if errors.lost else ""))
+            rows.append(row)
+        return table(["method"] + [name for name, _, _ in cases], rows)
 
     def recording_section(self):
         recordings = sorted(self.results.experiments.recordings)

@@ -87,7 +87,7 @@ class Results:
     def evaluation(self, key, method_key):
         """Figures of evaluate_trajectory and of the run itself, by name."""
         path = lambda ending: self.folder.file(
-            self.experiments.run_path("beyond", key, method_key, ending))
+            self.experiments.run_path("drift", key, method_key, ending))
         with open(path("json"), encoding="utf-8") as figures:
             result = json.load(figures)
         result.update({name: float(value) for name, value in read_summary(path("summary")).items()})
@@ -118,7 +118,7 @@ class Results:
 
     def table_2(self, method):
         """(trajectory, lighting): errors."""
-        return {case: self.errors("eight", keys, method)
+        return {case: self.errors("moving", keys, method)
                 for case, keys in self.experiments.plan.table_2.items()}
 
     def variants(self):
