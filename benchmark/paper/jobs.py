@@ -7,6 +7,7 @@ import json
 import os
 import subprocess
 import sys
+import tempfile
 import time
 
 
@@ -70,12 +71,18 @@ class Folder:
         except (OSError, ValueError, KeyError):
             return False
 
+    def processor_minutes(self, jobs):
+        """What all of them took, by their notes."""
+        total = 0.0
+        for job in jobs:
+            with open(self.note(job), encoding="utf-8") as note:
+                total += json.load(note)["processor_seconds"]
+        return total / 60
+
     def run(self, job):
         """Runs the commands and leaves the note. Throws JobError."""
-        start = time.time()
-        for command in job.commands:
-            run_command(command, self.path, job.name)
-        text = json.dumps({"key": self.key(job), "seconds": round(time.time() - start, 1)})
+        processor = sum(run_command(command, self.path, job.name) for command in job.commands)
+        text = json.dumps({"key": self.key(job), "processor_seconds": round(processor, 2)})
         temporary = self.note(job) + ".part"
         with open(temporary, "w", encoding="utf-8") as note:
             note.write(text + "\n")
@@ -91,20 +98,28 @@ def own_libraries(program):
 
 
 def run_command(command, folder, name):
-    """One command; its standard output goes to the file after ">" or nowhere."""
-    words, target = command, None
+    """One command; its standard output goes to the file after ">" or nowhere. Returns the processor
+    time it took, seconds."""
+    words, target = command, os.devnull
     if len(command) > 2 and command[-2] == ">":
-        words, target = command[:-2], command[-1]
-    result = subprocess.run(words, cwd=folder, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                            universal_newlines=True, check=False)
-    if result.returncode != 0:
-        raise JobError("%s: %s failed with code %d: %s" % (
-            name, os.path.basename(words[0]), result.returncode, result.stderr.strip()))
-    if target is not None:
-        path = os.path.join(folder, target)
-        os.makedirs(os.path.dirname(path), exist_ok=True)
-        with open(path, "w", encoding="utf-8") as output:
-            output.write(result.stdout)
+        words, target = command[:-2], os.path.join(folder, command[-1])
+        os.makedirs(os.path.dirname(target), exist_ok=True)
+    with open(target, "w", encoding="utf-8") as output, tempfile.TemporaryFile("w+") as errors:
+        process = subprocess.Popen(words, cwd=folder, stdout=output, stderr=errors)
+        _, status, usage = os.wait4(process.pid, 0)
+        process.returncode = status  # it has been waited for here
+        if status != 0:
+            errors.seek(0)
+            raise JobError("%s: %s failed (%s): %s" % (
+                name, os.path.basename(words[0]), describe(status), errors.read().strip()))
+    return usage.ru_utime + usage.ru_stime
+
+
+def describe(status):
+    """How a process ended."""
+    if os.WIFSIGNALED(status):
+        return "signal %d" % os.WTERMSIG(status)
+    return "code %d" % os.WEXITSTATUS(status)
 
 
 class Progress:

@@ -56,22 +56,20 @@ def processor():
     return platform.machine()
 
 
-def commit():
-    """The version that was measured, when this is a clone."""
-    found = subprocess.run(["git", "-C", plans.ROOT, "rev-parse", "--short", "HEAD"],
-                           stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
-                           universal_newlines=True, check=False)
-    return ", commit " + found.stdout.strip() if found.returncode == 0 else ""
+def version(program):
+    """What the measured program says of itself: its name and number."""
+    found = subprocess.run([program, "--version"], stdout=subprocess.PIPE, universal_newlines=True,
+                           check=True)
+    return found.stdout.strip()
 
 
 class Report:
     """The text, section by section, and the figures beside it."""
 
-    def __init__(self, results, table_1, folder, minutes):
+    def __init__(self, results, table_1, folder):
         self.results = results
         self.table_1 = table_1
         self.folder = folder
-        self.minutes = minutes
         self.plan = results.experiments.plan
         self.text = []
         os.makedirs(os.path.join(folder, PICTURES), exist_ok=True)
@@ -111,13 +109,13 @@ class Report:
             "Information*, 2016, on sequences that mivo films itself, by the tracker that the nodelet "
             "runs. This page is written by", "    scripts/reproduce_paper%s" % (
                 " --quick" if plan.quick else ""),
-            "on %s (%d cores), %s%s%s. Sequences have %d frames at 30 Hz%s; their options and "
+            "on %s (%d cores), %s, %s, in %.0f minutes of processor time. Sequences have %d frames at 30 Hz%s; their options and "
             "seeds stand at the end. The paper's sequences are recordings of a real camera and of "
             "another synthetic room: its numbers are printed beside ours to compare the order of "
             "the methods, not the digits." % (
                 processor(), os.cpu_count(), datetime.date.today().isoformat(),
-                commit(),
-                ", %d minutes" % self.minutes if self.minutes else "", plan.frames,
+                version(self.results.experiments.program("run_sequence")),
+                self.results.folder.processor_minutes(self.results.experiments.jobs), plan.frames,
                 ", 320 x 240" if plan.quick else ", 640 x 480"),
             "*MI*, *SSD* and *hybrid* are the paper's methods on raw intensities (`method` with "
             "`photometric_model: none`, `geometric_term: false`, `rolling_shutter_estimation: "

@@ -4,7 +4,6 @@
 import argparse
 import os
 import sys
-import time
 
 import plan as plans
 from experiments import FOLDERS, Experiments
@@ -70,10 +69,8 @@ def run(options):
     folder = Folder(os.path.abspath(output))
     for name in FOLDERS:
         os.makedirs(folder.file(name), exist_ok=True)
-    start = time.time()
     run_jobs(experiments.jobs, folder, options.jobs)
-    minutes = (time.time() - start) / 60
-    path = Report(Results(experiments, folder), None, document, round(minutes)).write()
+    path = Report(Results(experiments, folder), None, document).write()
     print(os.path.relpath(path))
 
 

@@ -75,9 +75,22 @@ class JobTest(unittest.TestCase):
 
     def test_a_failure_is_told_and_not_taken_for_done(self):
         bad = Job("bad", [shell("echo why >&2; exit 3")])
-        with self.assertRaisesRegex(JobError, "bad: sh failed with code 3: why"):
+        with self.assertRaisesRegex(JobError, r"bad: sh failed \(code 3\): why"):
             run_jobs([bad], self.folder, 2)
         self.assertFalse(self.folder.is_done(bad))
+
+    def test_a_signal_is_told_too(self):
+        with self.assertRaisesRegex(JobError, r"bad: sh failed \(signal 9\)"):
+            run_jobs([Job("bad", [shell("kill -9 $$")])], self.folder, 1)
+
+    def test_processor_time_is_that_of_the_programs(self):
+        spin = Job("spin", [["/usr/bin/env", "python3", "-c",
+                             "import time\nwhile time.process_time() < 0.2: pass"]])
+        rest = Job("rest", [shell("true")])
+        run_jobs([spin, rest], self.folder, 2)
+        minutes = self.folder.processor_minutes([spin, rest])
+        self.assertGreaterEqual(60 * minutes, 0.19)
+        self.assertLess(60 * minutes, 2.0)
 
     def test_after_a_failure_the_rest_is_kept(self):
         good = Job("good", [shell("true")])
