@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mivo/core/image_view.h"
+
 namespace mivo {
 namespace {
 
@@ -22,14 +24,29 @@ void selectPoints(const cv::Mat& image, const cv::Mat& depth, bool is_coarsest,
   selectSalient(image, depth, limits, pixels);
 }
 
+/// Pixels with a neighbour that may be clipped: their gradient is not that of the scene.
+void leaveOutSaturated(const cv::Mat& image, double saturation, std::vector<Pixel>& pixels) {
+  const auto limit = static_cast<float>(saturation);
+  const auto is_saturated = [&](const Pixel& pixel) {
+    for (int y = pixel.y - 1; y <= pixel.y + 1; ++y) {
+      for (int x = pixel.x - 1; x <= pixel.x + 1; ++x) {
+        if (intensityAt(image, x, y) >= limit) return true;
+      }
+    }
+    return false;
+  };
+  pixels.erase(std::remove_if(pixels.begin(), pixels.end(), is_saturated), pixels.end());
+}
+
 }  // namespace
 
 void Keyframe::build(const FramePyramid& frame, const Camera& camera,
-                     const Vector6& twist_per_period, double readout,
+                     const Vector6& twist_per_period, const ShutterTimes& shutter,
                      const Parameters& parameters) {
   twist_per_period_ = twist_per_period;
   contrast_in_view_ = frame.contrastInView();
-  const RowMotion rows{readout * twist_per_period};
+  const RowMotion rows{twist_per_period, shutter.readout, 0.0};
+  const RowMotion depth_rows{twist_per_period, shutter.readout, shutter.depth_offset};
   const int num_levels = frame.numLevels();
   levels_.resize(static_cast<std::size_t>(num_levels));
   frame.frame().image.copyTo(image_);
@@ -47,7 +64,10 @@ void Keyframe::build(const FramePyramid& frame, const Camera& camera,
         !uses_mi && frame.isNormalised() ? &frame.contrast().level(l) : nullptr};
     level.points.level = l;
     selectPoints(frame.grey(l), depth, is_coarsest, parameters, level.points.pixels);
-    makeReferencePoints(image, depth, camera.atLevel(l), rows, uses_mi, level.points);
+    if (frame.isNormalised())
+      leaveOutSaturated(frame.grey(l), parameters.saturation, level.points.pixels);
+    makeReferencePoints(image, {depth, shutter.depth_offset}, camera.atLevel(l), rows, uses_mi,
+                        level.points);
     if (uses_mi) {
       makeMiReference(level.points, frame.informationRange(l), parameters, level.mi);
     }
@@ -57,7 +77,7 @@ void Keyframe::build(const FramePyramid& frame, const Camera& camera,
     // Level 1 has patches of the right size, 14 pixels of the image; level 0 where there is no
     // other.
     const int l = std::min(1, num_levels - 1);
-    makeGeometricPoints(depth_pyramid_.level(l), camera.atLevel(l), rows,
+    makeGeometricPoints(depth_pyramid_.level(l), camera.atLevel(l), depth_rows,
                         parameters.geometric_points_dark, geometric_points_);
   }
 }

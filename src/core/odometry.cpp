@@ -79,6 +79,7 @@ class Odometry::Implementation {
   void setQuality(const Alignment& alignment);
   bool makeKeyframe(const Eigen::Isometry3d& T_odom_camera, const Vector6& twist_per_period);
   double readout() const;
+  ShutterTimes shutter() const;
   TrackingReason judge(const Frame& frame, const Alignment& alignment) const;
 
   MotionModel motion_;
@@ -159,7 +160,7 @@ void Odometry::Implementation::track(const Frame& frame,
   const Alignment alignment =
       align({keyframe_, live_, camera_, T_odom_camera_start.inverse() * T_odom_keyframe_,
              T_odom_camera_.inverse() * T_odom_keyframe_,
-             motion_.periodsSince(frame.stamp, parameters_), readout()},
+             motion_.periodsSince(frame.stamp, parameters_), shutter()},
             parameters_);
   result_.milliseconds.tracking = threadMilliseconds() - begin;
   result_.num_levels = alignment.num_levels;
@@ -266,11 +267,19 @@ double Odometry::Implementation::readout() const {
   return period > 0.0 ? std::min(1.0, parameters_.rolling_shutter_readout / period) : 0.0;
 }
 
+ShutterTimes Odometry::Implementation::shutter() const {
+  ShutterTimes times;
+  times.readout = readout();
+  const double period = motion_.period(parameters_);
+  if (period > 0.0) times.depth_offset = parameters_.depth_time_offset / period;
+  return times;
+}
+
 bool Odometry::Implementation::makeKeyframe(const Eigen::Isometry3d& T_odom_camera,
                                             const Vector6& twist_per_period) {
   const double begin = threadMilliseconds();
   readout_.endKeyframe();
-  candidate_.build(live_, camera_, twist_per_period, readout(), parameters_);
+  candidate_.build(live_, camera_, twist_per_period, shutter(), parameters_);
   result_.milliseconds.keyframe = threadMilliseconds() - begin;
   if (candidate_.numPoints() < static_cast<std::size_t>(parameters_.lost_points)) return false;
   std::swap(keyframe_, candidate_);

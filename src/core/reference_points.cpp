@@ -2,6 +2,7 @@
 #include "mivo/core/reference_points.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "mivo/core/image_view.h"
 #include "mivo/core/recycled.h"
@@ -12,6 +13,8 @@ namespace {
 
 // The pixels around a point: itself, left, right, above, below, and the corners.
 enum Place { kHere, kLeft, kRight, kAbove, kBelow, kUpLeft, kUpRight, kDownLeft, kDownRight };
+// Saturated points have been left out when the pixels were chosen.
+constexpr float kNeverSaturated = 1e9F;
 constexpr std::size_t kPlaces = 9;
 constexpr std::size_t kPlacesOfGradient = 5;
 constexpr int kColumnOf[kPlaces] = {0, -1, 1, 0, 0, -1, 1, -1, 1};
@@ -65,9 +68,9 @@ void sampleNormalised(const ReferenceImage& image, const std::vector<Pixel>& pix
       work.is_inside[i] = is_inside ? 1.0F : 0.0F;
       is_all_inside = is_all_inside && is_inside;
     }
-    kernels.sampleNormalised(view(image.grey), view(*image.contrast), work.place_u.data(),
-                             work.place_v.data(), work.is_inside.data(), pixels.size(),
-                             work.value[k].data());
+    kernels.sampleNormalised(view(image.grey), view(*image.contrast), kNeverSaturated,
+                             work.place_u.data(), work.place_v.data(), work.is_inside.data(),
+                             pixels.size(), work.value[k].data());
     if (is_all_inside) continue;
     for (std::size_t i = 0; i < pixels.size(); ++i) {
       if (work.is_inside[i] != 0.0F) continue;
@@ -105,6 +108,26 @@ void differentiate(const ReferenceImage& image, bool with_second_derivative,
         contrast * 0.25F *
         (value[kDownRight][i] - value[kDownLeft][i] - value[kUpRight][i] + value[kUpLeft][i]);
   }
+}
+
+/// Depth on the ray of a pixel when its row of the image is read: the reading is taken from where
+/// the surface has moved to by the time that the depth is read, and moved back.
+float depthOnRay(const ReferenceDepth& depth, const Camera& camera, const RowMotion& rows,
+                 const Pixel& pixel) {
+  const float z = depth.metres.ptr<float>(pixel.y)[pixel.x];
+  if (depth.offset == 0.0) return z;
+  const RowMotion later{rows.twist, 0.0, depth.offset};
+  const Eigen::Vector3d point = static_cast<double>(z) * camera.ray({pixel.x, pixel.y});
+  const auto there = camera.project(point + later.displacement(point, 0.0, 1.0));
+  if (!there) return z;
+  const auto u = static_cast<int>(std::lround(there->x()));
+  const auto v = static_cast<int>(std::lround(there->y()));
+  if (u < 0 || v < 0 || u >= depth.metres.cols || v >= depth.metres.rows) return z;
+  const auto reading = static_cast<double>(depth.metres.ptr<float>(v)[u]);
+  if (!(reading > 0.0)) return z;
+  const Eigen::Vector3d seen = reading * camera.ray({u, v});
+  const double moved_back = (seen - later.displacement(seen, 0.0, 1.0)).z();
+  return moved_back > 0.5 * reading ? static_cast<float>(moved_back) : z;
 }
 
 float median(const std::vector<float>& values) {
@@ -157,8 +180,8 @@ void derive(const kernels::WarpParameters& camera, bool with_second_derivative,
 
 }  // namespace
 
-void makeReferencePoints(const ReferenceImage& image, const cv::Mat& depth, const Camera& camera,
-                         const RowMotion& rows, bool with_second_derivative,
+void makeReferencePoints(const ReferenceImage& image, const ReferenceDepth& depth,
+                         const Camera& camera, const RowMotion& rows, bool with_second_derivative,
                          ReferencePoints& points) {
   const std::vector<Pixel>& pixels = points.pixels;
   const std::size_t n = pixels.size();
@@ -168,7 +191,7 @@ void makeReferencePoints(const ReferenceImage& image, const cv::Mat& depth, cons
   for (std::size_t i = 0; i < n; ++i) {
     work->u[i] = static_cast<float>(pixels[i].x);
     work->v[i] = static_cast<float>(pixels[i].y);
-    work->z[i] = depth.ptr<float>(pixels[i].y)[pixels[i].x];
+    work->z[i] = depthOnRay(depth, camera, rows, pixels[i]);
   }
   differentiate(image, with_second_derivative, points, *work);
   const Warp warp(camera, rows, 1);

@@ -20,6 +20,7 @@ SsdTerm::SsdTerm(const ReferencePoints& points, const cv::Mat& live_image,
       contrast_(contrast),
       warp_(warp),
       sum_(parameters.robust_weight, parameters.min_residual_scale, parameters),
+      saturation_(parameters.saturation),
       scale_iterations_(parameters.robust_scale_iterations) {}
 
 double SsdTerm::evaluate(const Eigen::Isometry3d& T_live_ref) {
@@ -28,7 +29,11 @@ double SsdTerm::evaluate(const Eigen::Isometry3d& T_live_ref) {
 }
 
 void SsdTerm::sample(const Eigen::Isometry3d& T_live_ref) {
-  warp_.sample(points_, T_live_ref, live_image_, contrast_, *samples_);
+  if (contrast_ != nullptr) {
+    warp_.sampleNormalised(points_, T_live_ref, live_image_, *contrast_, saturation_, *samples_);
+  } else {
+    warp_.sample(points_, T_live_ref, live_image_, *samples_);
+  }
   residuals_->value.resize(points_.size());
   kernels::active().residuals(samples_->value.data(), points_.contrast.data(),
                               points_.intensity.data(), samples_->visible.data(), points_.size(),

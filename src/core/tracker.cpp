@@ -32,9 +32,10 @@ class LevelAligner {
         level_(level),
         parameters_(parameters),
         points_(task.keyframe.level(level).points),
-        rows_{task.readout * twistPerPeriod(task, alignment.T_live_ref)},
+        rows_{twistPerPeriod(task, alignment.T_live_ref), task.shutter.readout, 0.0},
         warp_(task.camera.atLevel(level), rows_, parameters.threads),
-        finest_warp_(task.camera, rows_, parameters.threads),
+        depth_warp_(task.camera, {rows_.twist, rows_.readout, task.shutter.depth_offset},
+                    parameters.threads),
         alignment_(alignment),
         record_(record) {
     record_ = LevelRecord{};
@@ -65,7 +66,7 @@ class LevelAligner {
     const GeometricPoints& points = task_.keyframe.geometricPoints();
     if (!parameters_.geometric_term || points.size() == 0) return nullptr;
     auto term = std::make_unique<GeometricTerm>(points, static_cast<std::size_t>(num_points),
-                                                task_.live, finest_warp_, parameters_);
+                                                task_.live, depth_warp_, parameters_);
     term->evaluate(alignment_.T_live_ref);
     if (term->numVisible() < static_cast<std::size_t>(parameters_.lost_points)) return nullptr;
     return term;
@@ -84,6 +85,11 @@ class LevelAligner {
     record_.line_search_milliseconds += minimum.line_search_milliseconds;
   }
 
+  double share(std::size_t points) const {
+    return points_.size() > 0 ? static_cast<double>(points) / static_cast<double>(points_.size())
+                              : 0.0;
+  }
+
   void judgeDepth(const GeometricTerm& geometry) {
     alignment_.depth_scale = geometry.scale();
     alignment_.sees_depth = geometry.scale() <= parameters_.lost_depth_scale;
@@ -98,6 +104,7 @@ class LevelAligner {
     if (isEnoughInView(term)) {
       minimiseTerms({&term});
       record_.visible = static_cast<int>(term.numVisible());
+      alignment_.overlap = share(term.numVisible());
       alignment_.mutual_information = term.mutualInformation();
       alignment_.sees_image =
           2.0 * std::min(record_.visible, kIndependentPoints) * term.mutualInformation() >=
@@ -128,6 +135,7 @@ class LevelAligner {
     if (!terms.empty()) minimiseTerms(terms);
     if (geometry != nullptr) judgeDepth(*geometry);
     record_.visible = static_cast<int>(term.numVisible());
+    alignment_.overlap = share(term.numInView());
     alignment_.residual_scale = term.scale();
     alignment_.correlation = term.correlation();
     alignment_.sees_image = alignment_.sees_image && term.isInformative() &&
@@ -150,7 +158,7 @@ class LevelAligner {
   const ReferencePoints& points_;
   RowMotion rows_;
   Warp warp_;
-  Warp finest_warp_;
+  Warp depth_warp_;
   Alignment& alignment_;
   LevelRecord& record_;
 };
@@ -168,7 +176,6 @@ Alignment align(const AlignmentTask& task, const Parameters& parameters) {
   }
   const LevelRecord& finest = alignment.levels[static_cast<std::size_t>(alignment.num_levels - 1)];
   alignment.points = finest.visible;
-  alignment.overlap = finest.points > 0 ? static_cast<double>(finest.visible) / finest.points : 0.0;
   return alignment;
 }
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mivo/core/warp.h"
 
-#include <numeric>
-
 #include "mivo/core/image_view.h"
 #include "mivo/core/parallel_chunks.h"
 #include "mivo/core/recycled.h"
@@ -26,7 +24,8 @@ kernels::WarpParameters Warp::parameters(const Eigen::Isometry3d& T_live_ref) co
     p.angular[row] = static_cast<float>(rows_.twist[row + 3]);
   }
   p.has_row_motion = !rows_.isZero();
-  p.height = static_cast<float>(camera_.height);
+  p.row_duration = static_cast<float>(rows_.readout / camera_.height);
+  p.first_row = static_cast<float>(rows_.offset - 0.5 * rows_.readout);
   p.fx = static_cast<float>(camera_.fx);
   p.fy = static_cast<float>(camera_.fy);
   p.cx = static_cast<float>(camera_.cx);
@@ -43,30 +42,55 @@ kernels::WarpParameters Warp::parameters(const Eigen::Isometry3d& T_live_ref) co
   return p;
 }
 
-void Warp::sample(const ReferencePoints& points, const Eigen::Isometry3d& T_live_ref,
-                  const cv::Mat& image, const ContrastMap* contrast, LiveSamples& samples) const {
+/// @param sample_chunk called with a range of points that are warped; returns how many it hid.
+template <typename SampleChunk>
+void Warp::sampleChunks(const ReferencePoints& points, const Eigen::Isometry3d& T_live_ref,
+                        LiveSamples& samples, const SampleChunk& sample_chunk) const {
   for (std::vector<float>* array : {&samples.u, &samples.v, &samples.visible, &samples.value}) {
     array->resize(points.size());
   }
   const kernels::WarpParameters warp = parameters(T_live_ref);
-  const kernels::ImageView pixels = view(image);
-  const kernels::Kernels& kernels = kernels::active();
-  Recycled<std::vector<std::size_t>> visible;
-  visible->resize(numChunks(points.size()));
+  struct Counts {
+    std::size_t in_view;
+    std::size_t hidden;
+  };
+  Recycled<std::vector<Counts>> counts;
+  counts->resize(numChunks(points.size()));
   forEachChunk(points.size(), threads_, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
-    const std::size_t n = end - begin;
-    float* u = samples.u.data() + begin;
-    float* v = samples.v.data() + begin;
-    float* seen = samples.visible.data() + begin;
-    float* value = samples.value.data() + begin;
-    (*visible)[chunk] = kernels.warpPoints(warp, points.view(begin), n, u, v, seen);
-    if (contrast != nullptr) {
-      kernels.sampleNormalised(pixels, view(*contrast), u, v, seen, n, value);
-    } else {
-      kernels.sampleIntensity(pixels, u, v, seen, n, value);
-    }
+    const std::size_t in_view = kernels::active().warpPoints(
+        warp, points.view(begin), end - begin, samples.u.data() + begin, samples.v.data() + begin,
+        samples.visible.data() + begin);
+    (*counts)[chunk] = {in_view, sample_chunk(begin, end - begin)};
   });
-  samples.num_visible = std::accumulate(visible->begin(), visible->end(), std::size_t{0});
+  samples.num_in_view = 0;
+  samples.num_visible = 0;
+  for (const Counts& part : *counts) {
+    samples.num_in_view += part.in_view;
+    samples.num_visible += part.in_view - part.hidden;
+  }
+}
+
+void Warp::sample(const ReferencePoints& points, const Eigen::Isometry3d& T_live_ref,
+                  const cv::Mat& image, LiveSamples& samples) const {
+  const kernels::ImageView pixels = view(image);
+  sampleChunks(points, T_live_ref, samples, [&](std::size_t begin, std::size_t n) {
+    kernels::active().sampleIntensity(pixels, samples.u.data() + begin, samples.v.data() + begin,
+                                      samples.visible.data() + begin, n,
+                                      samples.value.data() + begin);
+    return std::size_t{0};
+  });
+}
+
+void Warp::sampleNormalised(const ReferencePoints& points, const Eigen::Isometry3d& T_live_ref,
+                            const cv::Mat& image, const ContrastMap& contrast, double saturation,
+                            LiveSamples& samples) const {
+  const kernels::ImageView pixels = view(image);
+  const kernels::ContrastView maps = view(contrast);
+  sampleChunks(points, T_live_ref, samples, [&](std::size_t begin, std::size_t n) {
+    return kernels::active().sampleNormalised(
+        pixels, maps, static_cast<float>(saturation), samples.u.data() + begin,
+        samples.v.data() + begin, samples.visible.data() + begin, n, samples.value.data() + begin);
+  });
 }
 
 }  // namespace mivo

@@ -16,7 +16,7 @@ class KeyframePolicyTest : public ::testing::Test {
     FramePyramid pyramid;
     pyramid.build(testing::render(testing::wallScene(), camera, Eigen::Isometry3d::Identity()),
                   parameters_);
-    keyframe_.build(pyramid, camera, Vector6::Zero(), 0.0, parameters_);
+    keyframe_.build(pyramid, camera, Vector6::Zero(), {}, parameters_);
     alignment_.overlap = 0.95;
     alignment_.mutual_information = 0.9;
     alignment_.residual_scale = 2.0;

@@ -14,7 +14,7 @@ Keyframe wallKeyframe(const Parameters& parameters) {
   pyramid.build(testing::render(testing::wallScene(), camera, Eigen::Isometry3d::Identity()),
                 parameters);
   Keyframe keyframe;
-  keyframe.build(pyramid, camera, Vector6::Zero(), 0.0, parameters);
+  keyframe.build(pyramid, camera, Vector6::Zero(), {}, parameters);
   return keyframe;
 }
 

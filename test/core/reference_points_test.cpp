@@ -36,7 +36,7 @@ ReferencePoints makePoints(const cv::Mat& image, const Camera& camera,
                            const std::vector<Pixel>& pixels, const RowMotion& rows = {}) {
   ReferencePoints points;
   points.pixels = pixels;
-  makeReferencePoints({image}, slopingDepthImage(camera), camera, rows, true, points);
+  makeReferencePoints({image}, {slopingDepthImage(camera)}, camera, rows, true, points);
   return points;
 }
 
@@ -187,6 +187,7 @@ TEST(ReferencePointsTest, MedianDepthIsThatOfThePoints) {
 TEST(ReferencePointsTest, RowsReadAtAnotherTimeAreMovedToTheMiddleOne) {
   const Camera camera = analyticCamera();
   RowMotion rows;
+  rows.readout = 1.0;
   rows.twist << 0.02, -0.01, 0.03, 0.01, 0.04, -0.02;
   const cv::Mat raster = testing::rasterised(testing::waves(), camera.width, camera.height);
   const ReferencePoints still = makePoints(raster, camera, kPixels);
@@ -201,6 +202,31 @@ TEST(ReferencePointsTest, RowsReadAtAnotherTimeAreMovedToTheMiddleOne) {
   EXPECT_LT((testing::pointAt(moved, 1) - testing::pointAt(still, 1)).norm(), 1e-6);  // row 40
 }
 
+// A plane that comes nearer and moves sideways while the camera waits for its depth.
+TEST(ReferencePointsTest, DepthReadLaterIsMovedToTheTimeOfTheImage) {
+  const Camera camera = analyticCamera();
+  const cv::Mat raster = testing::rasterised(testing::waves(), camera.width, camera.height);
+  RowMotion rows;
+  rows.twist << 0.06, 0.0, -0.2, 0.0, 0.0, 0.0;
+  constexpr double kOffset = 0.5;
+  const Eigen::Vector3d motion = kOffset * rows.twist.head<3>();
+  // Plane z = 2 + x / 2 at the time of the image: 2 z / (2 - (u - cx) / fx) = z.
+  const auto planeDepth = [&](double u, const Eigen::Vector3d& moved) {
+    const double slope = (u - camera.cx) / camera.fx;
+    return (2.0 + moved.z() - 0.5 * moved.x()) / (1.0 - 0.5 * slope);
+  };
+  cv::Mat depth(camera.height, camera.width, CV_32FC1);
+  for (int x = 0; x < depth.cols; ++x) depth.col(x).setTo(planeDepth(x, motion));
+  ReferencePoints points;
+  points.pixels = kPixels;
+  makeReferencePoints({raster}, {depth, kOffset}, camera, rows, false, points);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    // To what a pixel of rounding does to the depth of such a plane.
+    EXPECT_NEAR(static_cast<double>(points.z[i]), planeDepth(kPixels[i].x, Eigen::Vector3d::Zero()),
+                0.75 / camera.fx * 2.0);
+  }
+}
+
 // Mean and deviation alike everywhere: normalising takes the mean away, and the weighting by the
 // contrast gives grey levels back.
 TEST(ReferencePointsTest, NormalisedPointsAreInGreyLevelsAgain) {
@@ -212,7 +238,7 @@ TEST(ReferencePointsTest, NormalisedPointsAreInGreyLevelsAgain) {
   const ReferencePoints raw = makePoints(raster, camera, kPixels);
   ReferencePoints normalised;
   normalised.pixels = kPixels;
-  makeReferencePoints({raster, &map}, slopingDepthImage(camera), camera, {}, false, normalised);
+  makeReferencePoints({raster, &map}, {slopingDepthImage(camera)}, camera, {}, false, normalised);
   for (std::size_t i = 0; i < raw.size(); ++i) {
     EXPECT_FLOAT_EQ(normalised.contrast[i], 30.0F);
     EXPECT_NEAR(normalised.intensity[i], raw.intensity[i] - 100.0F, 1e-4);

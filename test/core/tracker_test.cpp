@@ -35,8 +35,8 @@ class TrackerTest : public ::testing::Test {
     FramePyramid live;
     live.build(live_frame, parameters);
     Keyframe keyframe;
-    keyframe.build(reference, camera_, Vector6::Zero(), 0.0, parameters);
-    return align({keyframe, live, camera_, T_live_ref_start, T_live_ref_start, 1.0, 0.0},
+    keyframe.build(reference, camera_, Vector6::Zero(), {}, parameters);
+    return align({keyframe, live, camera_, T_live_ref_start, T_live_ref_start, 1.0, {}},
                  parameters);
   }
 
@@ -239,9 +239,9 @@ TEST_F(TrackerTest, RowsReadOneAfterTheOtherAreAllowedFor) {
                                         real * step),
                  parameters);
       Keyframe keyframe;
-      keyframe.build(reference, camera_, localCoordinates(truth), assumed, parameters);
-      const AlignmentTask task{keyframe, live,   camera_, truth, Eigen::Isometry3d::Identity(),
-                               1.0,      assumed};
+      keyframe.build(reference, camera_, localCoordinates(truth), {assumed, 0.0}, parameters);
+      const AlignmentTask task{
+          keyframe, live, camera_, truth, Eigen::Isometry3d::Identity(), 1.0, {assumed, 0.0}};
       return localCoordinates(align(task, parameters).T_live_ref * truth.inverse());
     };
     const Vector6 global = errorWith(0.0, 0.0);

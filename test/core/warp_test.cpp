@@ -31,7 +31,7 @@ class WarpTest : public ::testing::Test {
     const cv::Mat image =
         testing::rasterised(testing::rampImage(90.0, kSlope), camera.width, camera.height);
     points_ = testing::analyticPoints(testing::waves(), camera, 3);
-    Warp(camera, rows, 1).sample(points_, T_live_ref, image, nullptr, samples_);
+    Warp(camera, rows, 1).sample(points_, T_live_ref, image, samples_);
   }
 
   static double ramp(const Eigen::Vector2d& pixel) { return 90.0 + kSlope.dot(pixel); }
@@ -111,6 +111,7 @@ TEST_F(WarpTest, APoseThatIsNotFiniteSeesNothing) {
 // With the rows read one after the other, the point has moved on when its row is read.
 TEST_F(WarpTest, RowsAreReadAtTheirTime) {
   RowMotion rows;
+  rows.readout = 1.0;
   rows.twist << 0.02, -0.01, 0.03, 0.01, 0.04, -0.02;
   Random random(2);
   for (const Camera& camera : {analyticCamera(), lensCamera()}) {
@@ -145,7 +146,7 @@ TEST_F(WarpTest, NormalisedSamplesAreOffsetAndGain) {
   cv::merge(values, 2, map.pairs);
   map.constant = 3.0F;
   const Eigen::Isometry3d T = Random(3).pose(0.05, 0.05);
-  Warp(camera, {}, 1).sample(points_, T, image, &map, samples_);
+  Warp(camera, {}, 1).sampleNormalised(points_, T, image, map, 256.0, samples_);
   for (std::size_t i = 0; i < points_.size(); ++i) {
     if (samples_.visible[i] == 0.0F || samples_.u[i] > 95.0F || samples_.v[i] > 75.0F) continue;
     const Eigen::Vector2d p(static_cast<double>(samples_.u[i]), static_cast<double>(samples_.v[i]));
@@ -155,15 +156,37 @@ TEST_F(WarpTest, NormalisedSamplesAreOffsetAndGain) {
   }
 }
 
+TEST_F(WarpTest, WhatMayBeClippedIsInViewButNotVisible) {
+  const Camera camera = testing::analyticCamera();
+  points_ = testing::analyticPoints(testing::waves(), camera, 3);
+  // Grey 90 at the left end, 2 more in each column: 250 from column 80 on.
+  const cv::Mat image =
+      testing::rasterised(testing::rampImage(90.0, {2.0, 0.0}), camera.width, camera.height);
+  ContrastMap map;
+  map.pairs = cv::Mat(camera.height / 4 + 2, camera.width / 4 + 2, CV_32FC2, cv::Scalar(100, 10));
+  map.constant = 1.0F;
+  Warp(camera, {}, 1)
+      .sampleNormalised(points_, Eigen::Isometry3d::Identity(), image, map, 250.0, samples_);
+  std::size_t visible = 0;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const int column = points_.pixels[i].x;
+    if (column == 80) continue;  // a matter of rounding
+    EXPECT_EQ(samples_.visible[i], column < 80 ? 1.0F : 0.0F) << column;
+  }
+  for (const float seen : samples_.visible) visible += seen != 0.0F ? 1U : 0U;
+  EXPECT_EQ(samples_.num_visible, visible);
+  EXPECT_GT(samples_.num_in_view, visible);
+}
+
 TEST_F(WarpTest, TheNumberOfThreadsDoesNotChangeABit) {
   const Camera camera = lensCamera();
   const cv::Mat image = testing::rasterised(testing::blobs(), camera.width, camera.height);
   points_ = testing::analyticPoints(testing::waves(), camera, 1);
   ASSERT_GT(points_.size(), 2U * 2048U);  // several chunks
   const Eigen::Isometry3d T = Random(4).pose(0.1, 0.1);
-  Warp(camera, {}, 1).sample(points_, T, image, nullptr, samples_);
+  Warp(camera, {}, 1).sample(points_, T, image, samples_);
   LiveSamples threaded;
-  Warp(camera, {}, 4).sample(points_, T, image, nullptr, threaded);
+  Warp(camera, {}, 4).sample(points_, T, image, threaded);
   EXPECT_EQ(samples_.value, threaded.value);
   EXPECT_EQ(samples_.visible, threaded.visible);
   EXPECT_EQ(samples_.num_visible, threaded.num_visible);
@@ -172,7 +195,7 @@ TEST_F(WarpTest, TheNumberOfThreadsDoesNotChangeABit) {
 TEST_F(WarpTest, NoPointsAreNoSamples) {
   const Camera camera = analyticCamera();
   const cv::Mat image(camera.height, camera.width, CV_32FC1, cv::Scalar(0));
-  Warp(camera, {}, 1).sample({}, Eigen::Isometry3d::Identity(), image, nullptr, samples_);
+  Warp(camera, {}, 1).sample({}, Eigen::Isometry3d::Identity(), image, samples_);
   EXPECT_EQ(samples_.num_visible, 0U);
   EXPECT_TRUE(samples_.value.empty());
 }

@@ -26,10 +26,9 @@ struct KeyframeLevel {
 class Keyframe {
  public:
   /// Fills the keyframe from a frame; buffers are reused. @param twist_per_period motion of the
-  /// scene in the camera's axes per frame period. @param readout share of it in which rows were
-  /// read.
+  /// scene in the camera's axes per frame period.
   void build(const FramePyramid& frame, const Camera& camera, const Vector6& twist_per_period,
-             double readout, const Parameters& parameters);
+             const ShutterTimes& shutter, const Parameters& parameters);
 
   /// See FramePyramid::contrastInView().
   double contrastInView() const { return contrast_in_view_; }

@@ -50,12 +50,18 @@ struct ReferenceImage {
   const ContrastMap* contrast = nullptr;  ///< to normalise it by; null: taken as it is
 };
 
+/// The depth that they get.
+struct ReferenceDepth {
+  const cv::Mat& metres;  ///< CV_32FC1, of the level; 0 for none
+  double offset = 0.0;    ///< frame periods by which a row of it is read later than of the image
+};
+
 /// Fills the arrays for the pixels of points.pixels, which have depth and lie at least one pixel
-/// from the border of their level. @param depth CV_32FC1 metres, @param camera both of this level.
+/// from the border of their level. @param camera of this level.
 /// @param rows motion of the keyframe's camera while its rows were read: points are moved to where
 /// they were when the middle row was read.
-void makeReferencePoints(const ReferenceImage& image, const cv::Mat& depth, const Camera& camera,
-                         const RowMotion& rows, bool with_second_derivative,
+void makeReferencePoints(const ReferenceImage& image, const ReferenceDepth& depth,
+                         const Camera& camera, const RowMotion& rows, bool with_second_derivative,
                          ReferencePoints& points);
 
 }  // namespace mivo

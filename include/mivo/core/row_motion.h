@@ -5,18 +5,29 @@
 
 namespace mivo {
 
-/// Motion of the scene in a camera's axes while the rows of one image are read, from the first to
-/// the last: a point X is at X + tau (w x X + v), tau = row / height - 1/2, when the row is read.
-/// The pose of a frame is that of its middle row. Zero for a global shutter.
-struct RowMotion {
-  Vector6 twist = Vector6::Zero();  ///< (v, w), m and rad per read-out
+/// When the rows of a camera's images are read, in frame periods.
+struct ShutterTimes {
+  double readout = 0.0;       ///< from the first row to the last; 0: global shutter
+  double depth_offset = 0.0;  ///< from a row of the colour image to the same row of the depth image
+};
 
-  bool isZero() const { return twist.isZero(0.0); }
+/// Motion of the scene in a camera's axes while an image is taken: a row is read at the time tau
+/// (frame periods) after that of the frame's pose, and a point X is at X + tau (w x X + v) then.
+/// The pose of a frame is that of the middle row of its colour image.
+struct RowMotion {
+  Vector6 twist = Vector6::Zero();  ///< (v, w), m and rad per frame period
+  double readout = 0.0;             ///< periods from the first row to the last; 0: global shutter
+  double offset = 0.0;              ///< periods from the time of the pose to that of the middle row
+
+  bool isZero() const { return twist.isZero(0.0) || (readout == 0.0 && offset == 0.0); }
+
+  double rowTime(double row, double height) const {
+    return readout * (row / height - 0.5) + offset;
+  }
 
   /// Displacement of a point of a row, metres.
   Eigen::Vector3d displacement(const Eigen::Vector3d& point, double row, double height) const {
-    const double tau = row / height - 0.5;
-    return tau * (twist.tail<3>().cross(point) + twist.head<3>());
+    return rowTime(row, height) * (twist.tail<3>().cross(point) + twist.head<3>());
   }
 };
 

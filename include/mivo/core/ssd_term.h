@@ -40,6 +40,7 @@ class SsdTerm : public CostTerm {
   bool isInformative() const { return weight_ == 1.0; }
 
   std::size_t numVisible() const { return residuals_->num_visible; }
+  std::size_t numInView() const { return samples_->num_in_view; }  ///< saturated ones too
   const Residuals& residuals() const { return *residuals_; }
   const LiveSamples& samples() const { return *samples_; }
 
@@ -51,6 +52,7 @@ class SsdTerm : public CostTerm {
   const ContrastMap* contrast_;
   const Warp& warp_;
   RobustSum sum_;
+  double saturation_;
   int scale_iterations_;
   double weight_ = 1.0;
   Eigen::Isometry3d T_live_ref_;  // of the samples

@@ -9,6 +9,7 @@
 #include "mivo/core/keyframe.h"
 #include "mivo/core/parameters.h"
 #include "mivo/core/readout_estimator.h"
+#include "mivo/core/row_motion.h"
 #include "mivo/core/tracking_result.h"
 
 namespace mivo {
@@ -23,8 +24,7 @@ struct AlignmentTask {
   /// moves.
   Eigen::Isometry3d T_previous_ref = Eigen::Isometry3d::Identity();
   double periods = 1.0;
-  double readout =
-      0.0;  ///< time to read the rows as a share of the frame period, 0: global shutter
+  ShutterTimes shutter;
 };
 
 /// Result of aligning one frame with a keyframe.

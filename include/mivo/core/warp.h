@@ -17,9 +17,10 @@ namespace mivo {
 /// point.
 struct LiveSamples {
   std::vector<float> u, v;     ///< pixels of the level; 0 where not visible
-  std::vector<float> visible;  ///< 1: in front of the camera and inside of the image; otherwise 0
+  std::vector<float> visible;  ///< 1: in view and not saturated; otherwise 0
   std::vector<float> value;    ///< intensity or normalised intensity; 0 where not visible
   std::size_t num_visible = 0;
+  std::size_t num_in_view = 0;  ///< in front of the camera and inside of the image
 };
 
 /// The warp of section II-B, with the time at which each row is read: samples a level of the live
@@ -30,9 +31,14 @@ class Warp {
   /// rows are read. @param threads see the parameter.
   Warp(const Camera& camera, const RowMotion& rows, int threads);
 
-  /// Bilinear samples of a CV_32FC1 or CV_8UC1 level, normalised by `contrast` unless that is null.
+  /// Bilinear samples of a CV_32FC1 or CV_8UC1 level.
   void sample(const ReferencePoints& points, const Eigen::Isometry3d& T_live_ref,
-              const cv::Mat& image, const ContrastMap* contrast, LiveSamples& samples) const;
+              const cv::Mat& image, LiveSamples& samples) const;
+
+  /// The same, normalised by `contrast`; points of at least `saturation` grey levels are hidden.
+  void sampleNormalised(const ReferencePoints& points, const Eigen::Isometry3d& T_live_ref,
+                        const cv::Mat& image, const ContrastMap& contrast, double saturation,
+                        LiveSamples& samples) const;
 
   const Camera& camera() const { return camera_; }
   const RowMotion& rows() const { return rows_; }
@@ -41,6 +47,10 @@ class Warp {
   kernels::WarpParameters parameters(const Eigen::Isometry3d& T_live_ref) const;
 
  private:
+  template <typename SampleChunk>
+  void sampleChunks(const ReferencePoints& points, const Eigen::Isometry3d& T_live_ref,
+                    LiveSamples& samples, const SampleChunk& sample_chunk) const;
+
   Camera camera_;
   RowMotion rows_;
   float max_squared_radius_;

@@ -78,7 +78,7 @@ MIVO_INLINE Ray rayOf(const WarpParameters& p, Number u, Number v) {
 MIVO_INLINE Point3 pointOn(const WarpParameters& p, const Ray& ray, Number v, Number z) {
   const Point3 X = {z * ray.x, z * ray.y, z};
   if (!p.has_row_motion) return X;
-  const Number tau = v / constant(p.height) - constant(0.5F);
+  const Number tau = v * constant(p.row_duration) + constant(p.first_row);
   const Point3 turned =
       cross({constant(p.angular[0]), constant(p.angular[1]), constant(p.angular[2])}, X);
   return {X.x - tau * (turned.x + constant(p.linear[0])),

@@ -14,8 +14,9 @@ std::size_t warpPoints(const WarpParameters& parameters, const PointsView& point
                        float* u, float* v, float* visible);
 void sampleIntensity(const ImageView& image, const float* u, const float* v, const float* visible,
                      std::size_t n, float* intensity);
-void sampleNormalised(const ImageView& image, const ContrastView& contrast, const float* u,
-                      const float* v, const float* visible, std::size_t n, float* normalised);
+std::size_t sampleNormalised(const ImageView& image, const ContrastView& contrast, float saturation,
+                             const float* u, const float* v, float* visible, std::size_t n,
+                             float* normalised);
 
 void residuals(const float* live, const float* contrast, const float* reference,
                const float* visible, std::size_t n, float* residual);

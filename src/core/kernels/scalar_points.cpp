@@ -76,7 +76,7 @@ std::size_t warpPoints(const WarpParameters& p, const PointsView& points, std::s
     }
     Pixel2 pixel = projectPoint(p, q);
     if (p.has_row_motion) {
-      const float tau = pixel.v / p.height - 0.5F;
+      const float tau = pixel.v * p.row_duration + p.first_row;
       const float moved[3] = {
           q[0] + tau * (p.angular[1] * q[2] - p.angular[2] * q[1] + p.linear[0]),
           q[1] + tau * (p.angular[2] * q[0] - p.angular[0] * q[2] + p.linear[1]),
@@ -101,11 +101,17 @@ void sampleIntensity(const ImageView& image, const float* u, const float* v, con
   }
 }
 
-void sampleNormalised(const ImageView& image, const ContrastView& contrast, const float* u,
-                      const float* v, const float* visible, std::size_t n, float* normalised) {
+std::size_t sampleNormalised(const ImageView& image, const ContrastView& contrast, float saturation,
+                             const float* u, const float* v, float* visible, std::size_t n,
+                             float* normalised) {
+  std::size_t hidden = 0;
   for (std::size_t i = 0; i < n; ++i) {
-    if (visible[i] == 0.0F) {
-      normalised[i] = 0.0F;
+    normalised[i] = 0.0F;
+    if (visible[i] == 0.0F) continue;
+    const float intensity = intensityAt(image, u[i], v[i]);
+    if (intensity >= saturation) {
+      visible[i] = 0.0F;
+      ++hidden;
       continue;
     }
     const Corner corner = cornerAt(0.25F * u[i], 0.25F * v[i]);
@@ -113,8 +119,9 @@ void sampleNormalised(const ImageView& image, const ContrastView& contrast, cons
     const float* lower = upper + contrast.stride;
     const float mean = bilinear(upper, lower, 2, corner);
     const float deviation = bilinear(upper + 1, lower + 1, 2, corner);
-    normalised[i] = (intensityAt(image, u[i], v[i]) - mean) / (deviation + contrast.constant);
+    normalised[i] = (intensity - mean) / (deviation + contrast.constant);
   }
+  return hidden;
 }
 
 }  // namespace reference

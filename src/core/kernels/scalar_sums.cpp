@@ -91,7 +91,7 @@ std::size_t geometricResiduals(const WarpParameters& live, const Motion& T_ref_l
     }
     float shift[3] = {0.0F, 0.0F, 0.0F};
     if (live.has_row_motion) {
-      const float tau = v[i] / live.height - 0.5F;
+      const float tau = v[i] * live.row_duration + live.first_row;
       const float* w = live.angular;
       shift[0] = tau * (w[1] * q[2] - w[2] * q[1] + live.linear[0]);
       shift[1] = tau * (w[2] * q[0] - w[0] * q[2] + live.linear[1]);

@@ -43,7 +43,7 @@ HWY_INLINE VectorPoint load(const PointsView& points, std::size_t i) {
 
 /// Way of the points until the row v is read.
 HWY_INLINE VectorPoint rowShift(const WarpParameters& p, const VectorPoint& q, FloatVector v) {
-  const FloatVector tau = hn::MulSub(v, all(1.0F / p.height), all(0.5F));
+  const FloatVector tau = hn::MulAdd(v, all(p.row_duration), all(p.first_row));
   const FloatVector wx = all(p.angular[0]);
   const FloatVector wy = all(p.angular[1]);
   const FloatVector wz = all(p.angular[2]);
@@ -250,10 +250,11 @@ inline void sampleIntensity(const ImageView& image, const float* u, const float*
                              intensity + whole);
 }
 
-inline void sampleNormalised(const ImageView& image, const ContrastView& contrast, const float* u,
-                             const float* v, const float* visible, std::size_t n,
-                             float* normalised) {
+inline std::size_t sampleNormalised(const ImageView& image, const ContrastView& contrast,
+                                    float saturation, const float* u, const float* v,
+                                    float* visible, std::size_t n, float* normalised) {
   const Floats d;
+  std::size_t hidden = 0;
   const std::size_t whole = wholeVectors(n);
   Corners corners;
   alignas(64) float upper[4 * kTile];  // mean, deviation, and those one pixel to the right
@@ -276,14 +277,18 @@ inline void sampleNormalised(const ImageView& image, const ContrastView& contras
       const FloatVector mean = interpolated(interpolated(m0, m1, du), interpolated(m2, m3, du), dv);
       const FloatVector deviation =
           interpolated(interpolated(s0, s1, du), interpolated(s2, s3, du), dv);
-      const FloatVector value = hn::Div(hn::Sub(hn::LoadU(d, normalised + begin + i), mean),
-                                        hn::Add(deviation, all(contrast.constant)));
-      hn::StoreU(hn::IfThenElseZero(visibleAt(visible, begin + i), value), d,
-                 normalised + begin + i);
+      const FloatVector intensity = hn::LoadU(d, normalised + begin + i);
+      const FloatVector value =
+          hn::Div(hn::Sub(intensity, mean), hn::Add(deviation, all(contrast.constant)));
+      const FloatMask in_view = visibleAt(visible, begin + i);
+      const FloatMask is_kept = hn::And(in_view, hn::Lt(intensity, all(saturation)));
+      hidden += hn::CountTrue(d, in_view) - hn::CountTrue(d, is_kept);
+      hn::StoreU(hn::IfThenElseZero(is_kept, all(1.0F)), d, visible + begin + i);
+      hn::StoreU(hn::IfThenElseZero(is_kept, value), d, normalised + begin + i);
     }
   }
-  reference::sampleNormalised(image, contrast, u + whole, v + whole, visible + whole, n - whole,
-                              normalised + whole);
+  return hidden + reference::sampleNormalised(image, contrast, saturation, u + whole, v + whole,
+                                              visible + whole, n - whole, normalised + whole);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -22,7 +22,8 @@ kernels::WarpParameters cameraOf(bool is_distorted, bool has_row_motion) {
   p.linear[0] = 0.01F;
   p.linear[1] = 0.02F;
   p.linear[2] = -0.01F;
-  p.height = 480.0F;
+  p.row_duration = 1.0F / 480.0F;
+  p.first_row = -0.5F;
   p.fx = 525.0F;
   p.fy = 520.0F;
   p.cx = 319.5F;

@@ -33,7 +33,8 @@ WarpParameters warpParameters(bool is_distorted, bool has_row_motion) {
   p.linear[0] = 0.01F;
   p.linear[1] = 0.02F;
   p.linear[2] = -0.01F;
-  p.height = kHeight;
+  p.row_duration = 1.0F / kHeight;
+  p.first_row = -0.5F;
   p.fx = 55.0F;
   p.fy = 56.0F;
   p.cx = 33.2F;
@@ -211,12 +212,15 @@ TEST(VectorSampleTest, NormalisedIntensitiesAgreeWithTheReference) {
       const Pixels pixels = awkwardPixels(n, offset);
       Array expected(n, offset, kNan);
       Array actual(n, offset, kNan);
-      const auto sample = [&](const Kernels& k, Array& out) {
-        k.sampleNormalised(pictures.image(as_bytes), pictures.contrast(), pixels.u.data(),
-                           pixels.v.data(), pixels.visible.data(), n, out.data());
+      // The brighter half is hidden.
+      const auto sample = [&](const Kernels& k, Array& visible, Array& out) {
+        return k.sampleNormalised(pictures.image(as_bytes), pictures.contrast(), 128.0F,
+                                  pixels.u.data(), pixels.v.data(), visible.data(), n, out.data());
       };
-      sample(kernels::scalar(), expected);
-      sample(kernels, actual);
+      Array expected_visible = pixels.visible;
+      Array actual_visible = pixels.visible;
+      EXPECT_EQ(sample(kernels, actual_visible, actual),
+                sample(kernels::scalar(), expected_visible, expected));
       for (std::size_t i = 0; i < n; ++i) {
         EXPECT_NEAR(actual[i], expected[i], 2e-5F * (1.0F + std::abs(expected[i])) + 1e-4F);
         if (pixels.visible[i] == 0.0F) {

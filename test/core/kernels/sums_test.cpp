@@ -138,7 +138,8 @@ kernels::WarpParameters liveCamera(bool has_row_motion) {
   p.has_row_motion = has_row_motion;
   p.angular[1] = -0.04F;
   p.linear[0] = 0.01F;
-  p.height = kHeight;
+  p.row_duration = 1.0F / kHeight;
+  p.first_row = -0.5F;
   p.fx = 55.0F;
   p.fy = 56.0F;
   p.cx = 33.2F;

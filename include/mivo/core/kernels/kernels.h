@@ -25,15 +25,16 @@ struct PointsView {
 };
 
 /// Motion of the points and projection into a level. A point X goes to q = R X + t; if rows are
-/// read one after the other, to q' = q + tau (angular x q + linear) with tau = v / height - 0.5 for
-/// the row v that q projects to; and then through the lens.
+/// read one after the other, to q' = q + tau (angular x q + linear) with the time
+/// tau = v row_duration + first_row of the row v that q projects to; and then through the lens.
 struct WarpParameters {
   float rotation[9];     ///< row by row
   float translation[3];  ///< m
   bool has_row_motion;
-  float angular[3];  ///< rad during the read-out
-  float linear[3];   ///< m during the read-out
-  float height;      ///< pixels of the level
+  float angular[3];    ///< rad per frame period
+  float linear[3];     ///< m per frame period
+  float row_duration;  ///< frame periods from one row of the level to the next
+  float first_row;     ///< frame periods from the time of the pose to that of row 0
   float fx, fy, cx, cy;
   bool is_distorted;
   float k1, k2, p1, p2, k3;
@@ -137,9 +138,12 @@ struct Kernels {
   void (*sampleIntensity)(const ImageView& image, const float* u, const float* v,
                           const float* visible, std::size_t n, float* intensity);
 
-  /// Locally normalised intensity (I - mean) / (deviation + constant), see ContrastView.
-  void (*sampleNormalised)(const ImageView& image, const ContrastView& contrast, const float* u,
-                           const float* v, const float* visible, std::size_t n, float* normalised);
+  /// Locally normalised intensity (I - mean) / (deviation + constant), see ContrastView; 0 where
+  /// not visible. A point whose intensity reaches `saturation` is visible no longer: what is
+  /// clipped cannot be normalised. Returns the number of those hidden.
+  std::size_t (*sampleNormalised)(const ImageView& image, const ContrastView& contrast,
+                                  float saturation, const float* u, const float* v, float* visible,
+                                  std::size_t n, float* normalised);
 
   /// residual = contrast * live - reference, 0 where not visible.
   void (*residuals)(const float* live, const float* contrast, const float* reference,
