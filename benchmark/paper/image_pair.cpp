@@ -76,7 +76,7 @@ ImagePairs loadPairs(const PairOptions& options, const Parameters& parameters) {
     const Frame live_frame = live.read(i * spacing + options.gap);
     FramePyramid pyramid;
     pyramid.build(reference_frame, parameters);
-    pair.keyframe.build(pyramid, result.camera, Vector6::Zero(), 0.0, parameters);
+    pair.keyframe.build(pyramid, result.camera, Vector6::Zero(), {}, parameters);
     pair.live.build(live_frame, parameters);
     pair.T_live_ref = live.pose(live_frame.stamp).inverse() * reference.pose(reference_frame.stamp);
   }

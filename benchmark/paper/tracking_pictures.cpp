@@ -90,7 +90,7 @@ void run(int argc, char** argv) {
   mivo::FramePyramid pyramid;
   pyramid.build(keyframe_frame, parameters);
   mivo::Keyframe keyframe;
-  keyframe.build(pyramid, reader.camera(), mivo::Vector6::Zero(), 0.0, parameters);
+  keyframe.build(pyramid, reader.camera(), mivo::Vector6::Zero(), {}, parameters);
   fs::create_directories(folder);
   const mivo::Overwrite overwrite = force ? mivo::Overwrite::kYes : mivo::Overwrite::kNo;
   const auto write = [&](const char* name, const cv::Mat& picture) {

@@ -24,7 +24,7 @@ struct AlignmentTask {
   /// moves.
   Eigen::Isometry3d T_previous_ref = Eigen::Isometry3d::Identity();
   double periods = 1.0;
-  ShutterTimes shutter;
+  ShutterTimes shutter = {};
 };
 
 /// Result of aligning one frame with a keyframe.
