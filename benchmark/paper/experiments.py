@@ -9,7 +9,7 @@ from jobs import Job
 FIRST = ["--reference", "first"]
 FIRST_SETTINGS = ["--set", "keyframe_policy=first", "--set", "motion_model=constant_pose"]
 DISTURB = ["--disturb", "0.005", "0.005", "--seed", "1"]  # m, rad
-FOLDERS = ["convergence", "optimiser", "pictures", "runs", "sequences"]
+FOLDERS = ["convergence", "levels", "optimiser", "pictures", "runs", "sequences"]
 
 
 class Experiments:
@@ -29,6 +29,7 @@ class Experiments:
         self.add_runs()
         self.add_convergence()
         self.add_optimisers()
+        self.add_level_times()
         self.add_pictures()
 
     def program(self, name):
@@ -136,6 +137,16 @@ class Experiments:
 
     def optimiser_path(self, name):
         return os.path.join("optimiser", name + ".csv")
+
+    def add_level_times(self):
+        for method in plans.PAPER_METHODS:
+            command = [self.program("level_times"), self.sequence(self.plan.basin)]
+            path = self.level_path(method)
+            self.add(path, [command + method.words() + [">", path]],
+                     after=self.after(self.plan.basin), alone=True)
+
+    def level_path(self, method):
+        return os.path.join("levels", method.key + ".csv")
 
     # ---- Pictures
 

@@ -66,10 +66,11 @@ class Folder:
 
     def is_done(self, job):
         try:
-            with open(self.note(job), encoding="utf-8") as note:
-                return json.load(note)["key"] == self.key(job)
+            with open(self.note(job), encoding="utf-8") as text:
+                note = json.load(text)
+            return note["key"] == self.key(job) and note["processor_seconds"] >= 0.0
         except (OSError, ValueError, KeyError):
-            return False
+            return False  # never run, interrupted, or by an older version of this program
 
     def processor_minutes(self, jobs):
         """What all of them took, by their notes."""

@@ -21,7 +21,7 @@ STYLES = {
     "hybrid": dict(color="0.6", linestyle="-", marker="P"),
     "default": dict(color="tab:blue", linestyle="-", marker="*", linewidth=2.2, markersize=9),
 }
-plt.rcParams.update({"font.size": 9, "axes.grid": True, "grid.color": "0.88", "figure.dpi": 110,
+plt.rcParams.update({"font.size": 9, "axes.grid": True, "axes.axisbelow": True, "grid.color": "0.88", "figure.dpi": 110,
                      "lines.markersize": 5, "lines.linewidth": 1.4, "legend.framealpha": 0.9})
 
 
@@ -159,17 +159,18 @@ def optimisers(results, path):
     save(figure, path)
 
 
-def levels(table, path):
-    """Table I as bars; `table` is {method: {level: ms}}."""
+def levels(times, path):
+    """Table I as bars; `times` is {method: {level: row}}."""
     figure, axes = plt.subplots(figsize=(7, 3))
-    names = ["4", "3", "2", "1", "0"]
-    hatches = ["", "////", "....", "xx"]
-    width = 0.8 / len(table)
-    for i, (method, times) in enumerate(table.items()):
-        axes.bar(np.arange(5) + i * width, [times.get(name, 0.0) for name in names], width,
-                 label=method, color=str(0.25 + 0.18 * i), hatch=hatches[i % 4], edgecolor="black")
-    axes.set_xticks(np.arange(5) + 0.4 - width / 2)
+    names = [name for name in times["mi"] if name != "all"]
+    places = np.arange(len(names))
+    width = 0.8 / len(times)
+    for i, (method, hatch) in enumerate(zip(plans.PAPER_METHODS, ("", "////", "....", "xx"))):
+        rows = [times[method.key][name] for name in names]
+        axes.bar(places + i * width, [row["ms_mean"] for row in rows], width, label=method.title,
+                 color=str(0.3 + 0.2 * i), hatch=hatch, edgecolor="black")
+    axes.set_xticks(places + 0.4 - width / 2)
     axes.set_xticklabels(["level " + name for name in names])
-    axes.set_ylabel("processor time (ms)")
+    axes.set_ylabel("processor time per frame (ms)")
     axes.legend(fontsize=8)
     save(figure, path)

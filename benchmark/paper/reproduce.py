@@ -12,7 +12,7 @@ from report import Report
 from results import Results
 
 NEEDED = ("generate_sequence", "run_sequence", "evaluate_trajectory", "pose_errors",
-          "convergence_experiment", "tracking_pictures")
+          "convergence_experiment", "level_times", "tracking_pictures")
 
 
 def arguments():
@@ -70,7 +70,7 @@ def run(options):
     for name in FOLDERS:
         os.makedirs(folder.file(name), exist_ok=True)
     run_jobs(experiments.jobs, folder, options.jobs)
-    path = Report(Results(experiments, folder), None, document).write()
+    path = Report(Results(experiments, folder), document).write()
     print(os.path.relpath(path))
 
 

@@ -104,6 +104,13 @@ class Results:
             trials.setdefault(row["magnitude"], []).append(row)
         return trials
 
+    def level_times(self, method):
+        """Level as text, "all" last: its row."""
+        path = self.folder.file(self.experiments.level_path(method))
+        with open(path, encoding="utf-8") as rows:
+            return {row.pop("level"): {name: float(value) for name, value in row.items()}
+                    for row in csv.DictReader(rows)}
+
     def picture(self, name, image):
         return self.folder.file(self.experiments.picture_path(name, image))
 
