@@ -26,6 +26,7 @@ constexpr int kRings = 4;
 constexpr int kSectors = 8;
 
 struct Patch {
+  std::size_t place;  // in reading order
   Eigen::Vector3d point;
   Eigen::Vector3d normal;
 };
@@ -143,7 +144,8 @@ bool toPatch(const Plane& plane, const Eigen::Vector3d& ray, const Eigen::Matrix
   const Eigen::Vector2d g = scale.transpose() * Eigen::Vector2d(plane.slope_u, plane.slope_v);
   const Eigen::Vector3d normal =
       Eigen::Vector3d(g.x(), g.y(), plane.centre - g.dot(ray.head<2>())).normalized();
-  patch = {ray / plane.centre, normal};
+  patch.point = ray / plane.centre;
+  patch.normal = normal;
   return std::abs(normal.dot(ray)) > kMinCosine * ray.norm();
 }
 
@@ -192,6 +194,16 @@ void chooseInTurn(std::size_t wanted, Workspace& work) {
   }
 }
 
+/// Puts each part into reading order: what lies side by side in the live depth image is read there
+/// one after the other.
+void sortParts(std::size_t first_part, std::vector<Patch>& chosen) {
+  const auto middle =
+      chosen.begin() + static_cast<std::ptrdiff_t>(std::min(first_part, chosen.size()));
+  const auto isBefore = [](const Patch& a, const Patch& b) { return a.place < b.place; };
+  std::sort(chosen.begin(), middle, isBefore);
+  std::sort(middle, chosen.end(), isBefore);
+}
+
 /// Planar patches over the image, by the direction of their normals.
 void findPatches(const cv::Mat& depth, const Camera& camera, const RowMotion& rows,
                  Workspace& work) {
@@ -205,6 +217,7 @@ void findPatches(const cv::Mat& depth, const Camera& camera, const RowMotion& ro
     for (int x = kRadius; x + kRadius < depth.cols; x += kStep, ++i) {
       Plane plane{};
       Patch patch;
+      patch.place = i;
       if (!fitPlane(work.columns, x, plane) ||
           !toPatch(plane, work.rays.ray[i], work.rays.scale[i], patch)) {
         continue;
@@ -227,10 +240,11 @@ float medianOf(const std::vector<float>& values) {
 }  // namespace
 
 void makeGeometricPoints(const cv::Mat& depth, const Camera& camera, const RowMotion& rows,
-                         int max_points, GeometricPoints& points) {
+                         int first_part, int max_points, GeometricPoints& points) {
   Recycled<Workspace> work;
   findPatches(depth, camera, rows, *work);
   chooseInTurn(static_cast<std::size_t>(max_points), *work);
+  sortParts(static_cast<std::size_t>(first_part), work->chosen);
   const std::vector<Patch>& chosen = work->chosen;
   for (std::vector<float>* array :
        {&points.x, &points.y, &points.z, &points.nx, &points.ny, &points.nz, &points.weight}) {

@@ -72,13 +72,15 @@ void Keyframe::build(const FramePyramid& frame, const Camera& camera,
       makeMiReference(level.points, frame.informationRange(l), parameters, level.mi);
     }
   }
-  geometric_points_ = GeometricPoints{};
-  if (parameters.geometric_term) {
+  if (!parameters.geometric_term) {
+    geometric_points_ = GeometricPoints{};
+  } else {
     // Level 1 has patches of the right size, 14 pixels of the image; level 0 where there is no
     // other.
     const int l = std::min(1, num_levels - 1);
     makeGeometricPoints(depth_pyramid_.level(l), camera.atLevel(l), depth_rows,
-                        parameters.geometric_points_dark, geometric_points_);
+                        parameters.geometric_points, parameters.geometric_points_dark,
+                        geometric_points_);
   }
 }
 

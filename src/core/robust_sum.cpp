@@ -30,19 +30,29 @@ std::uint32_t stepOf(float residual) {
   return leading < kFirst ? 0U : std::min(leading - kFirst, kSteps - 1U);
 }
 
-/// Exact median of the magnitudes of the visible residuals, of which there is at least one.
+// So many residuals tell the scale to two hundredths; of more, only every second, third, ... is
+// asked.
+constexpr std::size_t kEnoughForScale = 4096;
+
+/// Median of the magnitudes of the visible residuals, 0 when there is none among those asked.
 float medianMagnitude(const Residuals& residuals) {
   std::array<std::uint32_t, kSteps> counts{};
   const std::size_t n = residuals.value.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    if (residuals.visible[i] != 0.0F) ++counts[stepOf(residuals.value[i])];
+  const std::size_t stride = std::max<std::size_t>(1, n / kEnoughForScale);
+  // Whether a point is visible is added, not asked: no branch can foresee it.
+  std::size_t num_visible = 0;
+  for (std::size_t i = 0; i < n; i += stride) {
+    const std::uint32_t is_visible = residuals.visible[i] != 0.0F ? 1U : 0U;
+    counts[stepOf(residuals.value[i])] += is_visible;
+    num_visible += is_visible;
   }
-  std::size_t rank = residuals.num_visible / 2;
+  if (num_visible == 0) return 0.0F;
+  std::size_t rank = num_visible / 2;
   std::uint32_t step = 0;
   while (rank >= counts[step]) rank -= counts[step++];
   Recycled<std::vector<float>> candidates;
   candidates->clear();
-  for (std::size_t i = 0; i < n; ++i) {
+  for (std::size_t i = 0; i < n; i += stride) {
     if (residuals.visible[i] != 0.0F && stepOf(residuals.value[i]) == step) {
       candidates->push_back(std::abs(residuals.value[i]));
     }

@@ -31,7 +31,7 @@ class GeometricTermTest : public ::testing::Test {
   GeometricTermTest() {
     reference_ = testing::render(testing::roomScene(), camera_, kIntoCorner);
     live_frame_ = testing::render(testing::roomScene(), camera_, kIntoCorner * truth_.inverse());
-    makeGeometricPoints(reference_.depth, camera_, {}, 5000, points_);
+    makeGeometricPoints(reference_.depth, camera_, {}, 5000, 5000, points_);
     live_.build(live_frame_, parameters_);
   }
 
@@ -114,7 +114,7 @@ TEST_F(GeometricTermTest, HolesAndEdgesAreNoPlanes) {
   cv::Mat depth = reference_.depth.clone();
   depth.setTo(0.0F);
   GeometricPoints none;
-  makeGeometricPoints(depth, camera_, {}, 5000, none);
+  makeGeometricPoints(depth, camera_, {}, 5000, 5000, none);
   EXPECT_EQ(none.size(), 0U);
   EXPECT_EQ(none.median_depth, 1.0F);
   Random random(3);
@@ -123,13 +123,13 @@ TEST_F(GeometricTermTest, HolesAndEdgesAreNoPlanes) {
       depth.at<float>(y, x) = static_cast<float>(random.uniform(1.0, 3.0));
     }
   }
-  makeGeometricPoints(depth, camera_, {}, 5000, none);
+  makeGeometricPoints(depth, camera_, {}, 5000, 5000, none);
   EXPECT_EQ(none.size(), 0U);
 }
 
 TEST_F(GeometricTermTest, NoMorePointsThanAskedForAndTheirMedianDepth) {
   GeometricPoints few;
-  makeGeometricPoints(reference_.depth, camera_, {}, 50, few);
+  makeGeometricPoints(reference_.depth, camera_, {}, 50, 50, few);
   EXPECT_EQ(few.size(), 50U);
   std::vector<float> depths = few.z;
   std::sort(depths.begin(), depths.end());

@@ -27,9 +27,10 @@ struct GeometricPoints {
   std::size_t size() const { return x.size(); }
 };
 
-/// Fits planes to patches of a depth image and picks points of them.
+/// Fits planes to patches of a depth image and picks points of them. The first `first_part` points
+/// alone cover all directions, too; these and the others are in reading order each.
 /// @param depth CV_32FC1 metres, 0 for none; @param camera and @param rows of the same level.
 void makeGeometricPoints(const cv::Mat& depth, const Camera& camera, const RowMotion& rows,
-                         int max_points, GeometricPoints& points);
+                         int first_part, int max_points, GeometricPoints& points);
 
 }  // namespace mivo
