@@ -23,7 +23,8 @@ StatisticsFile::StatisticsFile(const std::string& path, Overwrite overwrite, int
     : file_(path, overwrite), levels_(levels) {
   std::string header = "stamp,state,reason,keyframe,new_keyframe,segment";
   for (int level = 0; level < levels; ++level) {
-    header += fmt::format(",iterations_{0},points_{0},visible_{0}", level);
+    header += fmt::format(
+        ",iterations_{0},evaluations_{0},points_{0},visible_{0},ms_{0},ms_line_search_{0}", level);
   }
   header +=
       ",mutual_information,residual_scale,overlap"
@@ -38,7 +39,9 @@ void StatisticsFile::write(double stamp, const TrackingResult& result, double cp
                   result.keyframe, result.new_keyframe ? 1 : 0, result.segment);
   for (int level = 0; level < levels_; ++level) {
     const LevelRecord record = recordOf(result, level);
-    row += fmt::format(",{},{},{}", record.iterations, record.points, record.visible);
+    row += fmt::format(",{},{},{},{},{:.4f},{:.4f}", record.iterations, record.evaluations,
+                       record.points, record.visible, record.milliseconds,
+                       record.line_search_milliseconds);
   }
   row += fmt::format(",{:.6g},{:.6g},{:.6g}", result.mutual_information, result.residual_scale,
                      result.overlap);

@@ -10,11 +10,12 @@ namespace mivo {
 
 /// What happened on each frame as comma-separated values: a row of names, then a row per frame.
 /// Columns: stamp (s), state, reason, keyframe (its number, 0: none), new_keyframe (0 or 1),
-/// segment; for each level L of the pyramid, 0 the finest, iterations_L, points_L (of the keyframe)
-/// and visible_L (of them used); mutual_information (nats), residual_scale (grey levels), overlap
-/// (0..1); sigma_tx, sigma_ty, sigma_tz (m), sigma_rx, sigma_ry, sigma_rz (rad), square roots of
-/// the covariance's diagonal; ms_pyramid, ms_tracking, ms_keyframe, ms_total, processor time by
-/// stage; cpu_ms, processor time of the process.
+/// segment; for each level L of the pyramid, 0 the finest, iterations_L, evaluations_L (of the
+/// cost), points_L (of the keyframe), visible_L (of them used), ms_L and, of it, ms_line_search_L;
+/// mutual_information (nats), residual_scale (grey levels), overlap (0..1); sigma_tx, sigma_ty,
+/// sigma_tz (m), sigma_rx, sigma_ry, sigma_rz (rad), square roots of the covariance's diagonal;
+/// ms_pyramid, ms_tracking, ms_keyframe, ms_total, processor time by stage; cpu_ms, processor time
+/// of the process.
 class StatisticsFile {
  public:
   /// Throws Error when the file exists and may not be replaced, or cannot be created.
