@@ -29,7 +29,9 @@ QuadraticModel linearise(const std::vector<CostTerm*>& terms, int iteration) {
 }  // namespace
 
 Minimum minimise(const std::vector<CostTerm*>& terms, const Eigen::Isometry3d& T_live_ref,
-                 double length, const Matrix6& pixel_motion, const Parameters& parameters) {
+                 double length, const Matrix6& pixel_motion, const Parameters& parameters,
+                 double tolerance) {
+  const double min_step_pixels = tolerance * parameters.min_step_pixels;
   Minimum minimum;
   minimum.T_live_ref = T_live_ref;
   minimum.cost = evaluate(terms, T_live_ref);
@@ -43,7 +45,7 @@ Minimum minimise(const std::vector<CostTerm*>& terms, const Eigen::Isometry3d& T
     minimum.condition = newton.condition;
     // Half the slope is what a quadratic cost would gain; without this test the last iteration
     // would spend all its halvings on nothing.
-    const double enough = parameters.min_cost_change * std::abs(model.cost);
+    const double enough = tolerance * parameters.min_cost_change * std::abs(model.cost);
     const double pixels = std::sqrt(std::max(0.0, newton.step.dot(pixel_motion * newton.step)));
     if (0.5 * newton.promised_gain <= enough || !(pixels > 0.0)) break;
 
@@ -67,14 +69,14 @@ Minimum minimise(const std::vector<CostTerm*>& terms, const Eigen::Isometry3d& T
       length_factor *= 0.5;
       // What is left of the step could not gain enough to go on, nor move a point visibly.
       if (length_factor * newton.promised_gain <= enough ||
-          length_factor * pixels < parameters.min_step_pixels) {
+          length_factor * pixels < min_step_pixels) {
         break;
       }
     }
     minimum.line_search_milliseconds += threadMilliseconds() - start;
     if (!is_accepted) break;
     ++minimum.iterations;
-    if (length_factor * pixels < parameters.min_step_pixels || model.cost - minimum.cost < enough) {
+    if (length_factor * pixels < min_step_pixels || model.cost - minimum.cost < enough) {
       break;
     }
   }

@@ -2,6 +2,7 @@
 #include "mivo/core/ssd_term.h"
 
 #include <cmath>
+#include <utility>
 
 namespace mivo {
 namespace {
@@ -38,7 +39,7 @@ void SsdTerm::sample(const Eigen::Isometry3d& T_live_ref) {
   kernels::active().residuals(samples_->value.data(), points_.contrast.data(),
                               points_.intensity.data(), samples_->visible.data(), points_.size(),
                               residuals_->value.data());
-  residuals_->visible = samples_->visible;
+  std::swap(residuals_->visible, samples_->visible);
   residuals_->num_visible = samples_->num_visible;
   T_live_ref_ = T_live_ref;
   is_sampled_ = true;
@@ -62,7 +63,7 @@ bool SsdTerm::isSignificant() const {
 double SsdTerm::correlation() const {
   kernels::PairSums sums{};
   kernels::active().sumPairs(samples_->value.data(), points_.intensity.data(),
-                             points_.contrast.data(), samples_->visible.data(), points_.size(),
+                             points_.contrast.data(), residuals_->visible.data(), points_.size(),
                              sums);
   const auto n = static_cast<double>(residuals_->num_visible);
   const double spread = (n * sums.aa - sums.a * sums.a) * (n * sums.bb - sums.b * sums.b);

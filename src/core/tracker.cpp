@@ -73,9 +73,11 @@ class LevelAligner {
   }
 
   void minimiseTerms(const std::vector<CostTerm*>& terms) {
+    // Levels whose result is kept are finished with care.
+    const double tolerance = level_ > kReadoutLevel ? parameters_.coarse_tolerance : 1.0;
     const Minimum minimum =
         minimise(terms, alignment_.T_live_ref, static_cast<double>(points_.median_depth),
-                 points_.pixel_motion, parameters_);
+                 points_.pixel_motion, parameters_, tolerance);
     alignment_.T_live_ref = minimum.T_live_ref;
     alignment_.information = minimum.hessian;
     alignment_.condition = minimum.condition;

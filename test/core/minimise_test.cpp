@@ -217,6 +217,18 @@ TEST(MinimiseTest, SmallStepsAndSmallGainsEndIt) {
   EXPECT_LT(by_step.iterations, far.iterations);
   EXPECT_LT(by_gain.iterations, far.iterations);
   EXPECT_GT(by_step.iterations, 1);
+  // A tolerance makes both larger at once.
+  Parameters both = precise;
+  both.min_step_pixels *= 50.0;
+  both.min_cost_change = 0.005;
+  Parameters tenth = both;
+  tenth.min_step_pixels *= 0.1;
+  tenth.min_cost_change *= 0.1;
+  const Minimum expected = minimise({&quartic}, at(0.5), 1.0, kPixelMotion, both);
+  const Minimum actual = minimise({&quartic}, at(0.5), 1.0, kPixelMotion, tenth, 10.0);
+  EXPECT_LT(expected.iterations, far.iterations);
+  EXPECT_EQ(actual.iterations, expected.iterations);
+  EXPECT_EQ(actual.cost, expected.cost);
 }
 
 TEST(MinimiseTest, AnInfiniteCostStaysWhereItIs) {

@@ -59,7 +59,7 @@ class SsdTermTest : public ::testing::Test {
   double bruteForceCost(const SsdTerm& term, RobustWeight kind, const Vector6& d) const {
     double sum = 0.0;
     for (std::size_t i = 0; i < points_.size(); ++i) {
-      if (term.samples().visible[i] == 0.0F) continue;
+      if (term.residuals().visible[i] == 0.0F) continue;
       const double residual =
           static_cast<double>(term.samples().value[i]) -
           testing::warpedIntensity(reference_, camera_, testing::pointAt(points_, i), d);
@@ -72,7 +72,7 @@ class SsdTermTest : public ::testing::Test {
   Matrix6 bruteForceHessian(const SsdTerm& term, RobustWeight kind) const {
     Matrix6 sum = Matrix6::Zero();
     for (std::size_t i = 0; i < points_.size(); ++i) {
-      if (term.samples().visible[i] == 0.0F) continue;
+      if (term.residuals().visible[i] == 0.0F) continue;
       const Eigen::Vector3d point = testing::pointAt(points_, i);
       const auto intensity = [&](const Vector6& d) {
         return testing::warpedIntensity(reference_, camera_, point, d);

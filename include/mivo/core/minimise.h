@@ -24,8 +24,10 @@ struct Minimum {
 /// tried in full and then halved until it meets Armijo's condition (section III-B), composed
 /// inversely, T <- T o retract(step)^-1 (Eq. 5). Stops on a small step or gain, or when no step
 /// helps. The terms are left evaluated at the pose that is returned.
-/// @param length median depth, m. @param pixel_motion see ReferencePoints.
+/// @param length median depth, m. @param pixel_motion see ReferencePoints. @param tolerance is
+/// multiplied with the step and the gain that end it.
 Minimum minimise(const std::vector<CostTerm*>& terms, const Eigen::Isometry3d& T_live_ref,
-                 double length, const Matrix6& pixel_motion, const Parameters& parameters);
+                 double length, const Matrix6& pixel_motion, const Parameters& parameters,
+                 double tolerance = 1.0);
 
 }  // namespace mivo

@@ -42,6 +42,7 @@ class SsdTerm : public CostTerm {
   std::size_t numVisible() const { return residuals_->num_visible; }
   std::size_t numInView() const { return samples_->num_in_view; }  ///< saturated ones too
   const Residuals& residuals() const { return *residuals_; }
+  /// Where the points fall and what they see there; `visible` is with the residuals.
   const LiveSamples& samples() const { return *samples_; }
 
  private:
