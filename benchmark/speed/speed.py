@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""The command line of scripts/benchmark speed."""
+
+import argparse
+import os
+import platform
+import sys
+
+import measure
+import plots
+import tables
+from programs import ProgramError, Programs
+
+ROOT = os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..")
+INTRODUCTION = """# Speed
+
+Made by `scripts/benchmark speed --document` on %s. Processor time on one
+thread from decoded 8-bit image and 16-bit depth to the pose, keyframes and undistortion included. Runs
+take turns and each figure is the median over %d of them; what else the machine did is in the
+milliseconds, but hardly in the ratios. SSD, MI and hybrid are the paper's (`photometric_model: none`,
+`geometric_term: false`, `rolling_shutter_estimation: false`); default is what a user gets.
+"""
+BACKENDS = """The hot loops are functions over plain arrays (`include/mivo/core/kernels/kernels.h`) with a readable
+reference in plain C++ and one vector source for SSE4, AVX2, AVX-512 and NEON. The processor decides
+which runs when the program starts: nothing is built for one machine (`kernels::backends()`,
+`kernels::select()`). Tests hold each of them against the reference. Points are 4800, images 640 x 480.
+"""
+
+
+def arguments():
+    parser = argparse.ArgumentParser(prog="benchmark speed", description=__doc__)
+    parser.add_argument("--build", default=os.path.join(ROOT, "build"), metavar="FOLDER")
+    parser.add_argument("--output", default=os.path.join(ROOT, "benchmark_output"),
+                        metavar="FOLDER", help="for sequences, speed.md and plots")
+    parser.add_argument("--quick", action="store_true", help="few frames: whether it works")
+    parser.add_argument("--document", action="store_true", help="write doc/speed.md, too")
+    return parser.parse_args()
+
+
+def machine():
+    with open("/proc/cpuinfo", encoding="utf-8") as info:
+        names = [line.split(":", 1)[1].strip() for line in info if line.startswith("model name")]
+    return "%s, %d cores" % (names[0] if names else platform.processor() or platform.machine(),
+                             os.cpu_count() or 1)
+
+
+def say(text):
+    print(text, file=sys.stderr, flush=True)
+
+
+def measure_all(programs, plan, folder):
+    say("filming ...")
+    sequences = {}
+    for name, path in measure.find_sequences(programs, plan).items():
+        say("measuring %s ..." % name)
+        sequences[name] = measure.measure_sequence(programs, plan, path)
+        plots.plot_levels(folder, name, sequences[name])
+        plots.plot_frames(folder, name, sequences[name])
+    room = os.path.join(folder, "room")
+    say("measuring kernels ...")
+    kernels = programs.kernels(plan.kernel_seconds)
+    say("measuring image sizes, points and bins ...")
+    sizes = measure.measure_sizes(programs, plan)
+    points = measure.measure_parameter(programs, plan, room, "point_fraction", measure.FRACTIONS,
+                                       ())
+    bins = measure.measure_parameter(programs, plan, room, "mi_bins", measure.BINS,
+                                     measure.METHODS["mi"])
+    plots.plot_sizes(folder, sizes)
+    plots.plot_parameter(folder, "point_fraction", points)
+    plots.plot_parameter(folder, "mi_bins", bins)
+    return sequences, kernels, sizes, points, bins
+
+
+def document(plan, sequences, kernels, sizes, points, bins):
+    parts = [INTRODUCTION % (machine(), plan.repetitions),
+             "## Against the goals\n", tables.goal_table(sequences),
+             "## Median time per frame, ms\n", tables.median_table(sequences)]
+    for name, measured in sequences.items():
+        parts += ["## %s\n" % name, "By stage, default:\n", tables.stage_table(measured),
+                  "By level, ms, mean ± standard deviation (the paper's Table I):\n",
+                  tables.level_table(measured)]
+    parts += ["## Kernels\n", BACKENDS, tables.kernel_table(kernels),
+              "## Cost against resolution, points and bins\n",
+              "Median ms per frame by image width (4:3):\n", tables.size_table(sizes),
+              "Default, by the fraction of pixels that become points:\n",
+              tables.parameter_table("`point_fraction`", points), "MI on all levels, by bins:\n",
+              tables.parameter_table("`mi_bins`", bins)]
+    return "\n".join(parts)
+
+
+def main():
+    options = arguments()
+    plan = measure.Plan(options.quick)
+    folder = os.path.abspath(options.output)
+    try:
+        programs = Programs(options.build, folder)
+        text = document(plan, *measure_all(programs, plan, folder))
+    except ProgramError as error:
+        say("benchmark speed: %s" % error)
+        return 1
+    targets = [os.path.join(folder, "speed.md")]
+    if options.document:
+        targets.append(os.path.join(ROOT, "doc", "speed.md"))
+    for target in targets:
+        with open(target, "w", encoding="utf-8") as file:
+            file.write(text)
+    print(text)
+    say("speed.md and plots are in %s" % folder)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
