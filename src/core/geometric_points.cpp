@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include "mivo/core/recycled.h"
 
@@ -181,7 +180,7 @@ void chooseInTurn(std::size_t wanted, Workspace& work) {
     for (std::size_t first = 0; first < kStride; ++first) {
       for (std::size_t i = first; i < bin.size(); i += kStride) work.spread.push_back(bin[i]);
     }
-    std::swap(bin, work.spread);
+    bin = work.spread;  // a copy: each keeps its memory
   }
   for (std::size_t rank = 0; work.chosen.size() < wanted; ++rank) {
     bool is_empty = true;

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "mivo/core/recycled.h"
+
 namespace mivo {
 namespace {
 
@@ -33,9 +35,10 @@ void MotionModel::add(double stamp, const Eigen::Isometry3d& T_odom_camera) {
 double MotionModel::period(const Parameters& parameters) const {
   if (parameters.frame_period > 0.0) return parameters.frame_period;
   if (intervals_.empty()) return 0.0;
-  std::vector<double> sorted = intervals_;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(sorted.begin(), middle, sorted.end());
+  Recycled<std::vector<double>> sorted;
+  *sorted = intervals_;
+  const auto middle = sorted->begin() + static_cast<std::ptrdiff_t>(sorted->size() / 2);
+  std::nth_element(sorted->begin(), middle, sorted->end());
   return *middle;
 }
 

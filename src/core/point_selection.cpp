@@ -56,6 +56,7 @@ struct Workspace {
   std::vector<std::uint8_t> marks;       // of the candidates of one row
   std::size_t num_candidates = 0;
   std::vector<Candidate> candidates;  // in reading order
+  std::vector<Pixel> chosen;
   std::vector<Cell> cells;
   std::vector<std::uint32_t> counts;     // kSteps for each cell
   std::vector<std::vector<Rank>> ranks;  // of the last step of each cell
@@ -195,13 +196,13 @@ void selectSalient(const cv::Mat& image, const cv::Mat& depth, const SelectionLi
   findWeakest(quotaPerCell(work.cells, static_cast<std::uint32_t>(limits.num_points)), work);
   // Again without a branch that nothing foresees.
   std::size_t count = 0;
-  pixels.resize(work.num_candidates + 1);
+  work.chosen.resize(std::max(work.chosen.size(), work.num_candidates + 1));
   for (std::size_t i = 0; i < work.num_candidates; ++i) {
     const Candidate& candidate = work.candidates[i];
-    pixels[count] = {candidate.x, candidate.y};
+    work.chosen[count] = {candidate.x, candidate.y};
     count += candidate.rank >= work.cells[candidate.cell].weakest ? 1U : 0U;
   }
-  pixels.resize(count);
+  pixels.assign(work.chosen.begin(), work.chosen.begin() + static_cast<std::ptrdiff_t>(count));
 }
 
 void selectAll(const cv::Mat& depth, std::vector<Pixel>& pixels) {

@@ -2,12 +2,13 @@
 #include "mivo/core/tracker.h"
 
 #include <algorithm>
-#include <memory>
+#include <optional>
 
 #include "mivo/core/cpu_clock.h"
 #include "mivo/core/geometric_term.h"
 #include "mivo/core/mi_term.h"
 #include "mivo/core/minimise.h"
+#include "mivo/core/recycled.h"
 #include "mivo/core/ssd_term.h"
 
 namespace mivo {
@@ -62,21 +63,27 @@ class LevelAligner {
   }
 
   /// The geometric term, if enough of its points have depth in the live frame.
-  std::unique_ptr<GeometricTerm> geometricTerm(int num_points) const {
+  GeometricTerm* geometricTerm(int num_points) {
     const GeometricPoints& points = task_.keyframe.geometricPoints();
     if (!parameters_.geometric_term || points.size() == 0) return nullptr;
-    auto term = std::make_unique<GeometricTerm>(points, static_cast<std::size_t>(num_points),
-                                                task_.live, depth_warp_, parameters_);
-    term->evaluate(alignment_.T_live_ref);
-    if (term->numVisible() < static_cast<std::size_t>(parameters_.lost_points)) return nullptr;
-    return term;
+    geometry_.emplace(points, static_cast<std::size_t>(num_points), task_.live, depth_warp_,
+                      parameters_);
+    geometry_->evaluate(alignment_.T_live_ref);
+    if (geometry_->numVisible() < static_cast<std::size_t>(parameters_.lost_points)) return nullptr;
+    return &*geometry_;
   }
 
-  void minimiseTerms(const std::vector<CostTerm*>& terms) {
+  /// Minimises the sum of the terms that there are.
+  void minimiseTerms(CostTerm* first, CostTerm* second = nullptr) {
+    terms_->clear();
+    for (CostTerm* term : {first, second}) {
+      if (term != nullptr) terms_->push_back(term);
+    }
+    if (terms_->empty()) return;
     // Levels whose result is kept are finished with care.
     const double tolerance = level_ > kReadoutLevel ? parameters_.coarse_tolerance : 1.0;
     const Minimum minimum =
-        minimise(terms, alignment_.T_live_ref, static_cast<double>(points_.median_depth),
+        minimise(*terms_, alignment_.T_live_ref, static_cast<double>(points_.median_depth),
                  points_.pixel_motion, parameters_, tolerance);
     alignment_.T_live_ref = minimum.T_live_ref;
     alignment_.information = minimum.hessian;
@@ -104,7 +111,7 @@ class LevelAligner {
     alignment_.sees_image = false;
     alignment_.sees_depth = false;
     if (isEnoughInView(term)) {
-      minimiseTerms({&term});
+      minimiseTerms(&term);
       record_.visible = static_cast<int>(term.numVisible());
       alignment_.overlap = share(term.numVisible());
       alignment_.mutual_information = term.mutualInformation();
@@ -115,8 +122,8 @@ class LevelAligner {
     if (alignment_.sees_image) return;
     // Chance, not structure: its maximum means nothing. Depth may still know the way.
     alignment_.T_live_ref = start;
-    if (const auto geometry = geometricTerm(parameters_.geometric_points_dark)) {
-      minimiseTerms({geometry.get()});
+    if (GeometricTerm* geometry = geometricTerm(parameters_.geometric_points_dark)) {
+      minimiseTerms(geometry);
       judgeDepth(*geometry);
     }
   }
@@ -126,15 +133,11 @@ class LevelAligner {
                  task_.live.isNormalised() ? &task_.live.contrast().level(level_) : nullptr, warp_,
                  parameters_);
     alignment_.sees_image = isEnoughInView(term) && term.isSignificant();
-    const auto geometry = geometricTerm(alignment_.sees_image ? parameters_.geometric_points
-                                                              : parameters_.geometric_points_dark);
-    std::vector<CostTerm*> terms;
-    if (term.numVisible() >= static_cast<std::size_t>(parameters_.lost_points)) {
-      terms.push_back(&term);
-    }
-    if (geometry != nullptr) terms.push_back(geometry.get());
+    GeometricTerm* geometry = geometricTerm(
+        alignment_.sees_image ? parameters_.geometric_points : parameters_.geometric_points_dark);
+    const bool has_points = term.numVisible() >= static_cast<std::size_t>(parameters_.lost_points);
     alignment_.sees_depth = false;
-    if (!terms.empty()) minimiseTerms(terms);
+    minimiseTerms(has_points ? &term : nullptr, geometry);
     if (geometry != nullptr) judgeDepth(*geometry);
     record_.visible = static_cast<int>(term.numVisible());
     alignment_.overlap = share(term.numInView());
@@ -163,6 +166,8 @@ class LevelAligner {
   Warp depth_warp_;
   Alignment& alignment_;
   LevelRecord& record_;
+  std::optional<GeometricTerm> geometry_;
+  Recycled<std::vector<CostTerm*>> terms_;
 };
 
 }  // namespace

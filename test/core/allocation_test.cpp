@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <gtest/gtest.h>
+
+#include <memory>
+#include <opencv2/core.hpp>
+
+#include "mivo/core/odometry.h"
+#include "support/camera_path.h"
+#include "support/heap_counter.h"
+
+namespace mivo {
+namespace {
+
+using testing::kFramePeriod;
+using testing::numAllocations;
+
+TEST(HeapCounterTest, CountsWhatIsAllocated) {
+  std::size_t before = numAllocations();
+  const auto number = std::make_unique<int>(1);
+  EXPECT_EQ(numAllocations(), before + 1);
+  before = numAllocations();
+  const cv::Mat image(48, 64, CV_8UC1, cv::Scalar(0));
+  EXPECT_GT(numAllocations(), before);
+  before = numAllocations();
+  const cv::Mat same = image;
+  EXPECT_EQ(numAllocations(), before);
+}
+
+/// Tracks the frames forth and back, `walks` times, and returns how many allocations there were on
+/// the last walk.
+std::size_t allocationsOfLastWalk(const testing::Recording& recording, const Parameters& parameters,
+                                  int walks, int& keyframes) {
+  Odometry odometry(recording.camera, parameters);
+  const auto n = static_cast<int>(recording.frames.size());
+  std::size_t allocations = 0;
+  double stamp = 0.0;
+  for (int walk = 0; walk < walks; ++walk) {
+    allocations = 0;
+    const int before = odometry.result().keyframes;
+    for (int step = 0; step < 2 * n - 2; ++step) {
+      Frame frame = recording.frames[static_cast<std::size_t>(step < n ? step : 2 * n - 2 - step)];
+      frame.stamp = (stamp += kFramePeriod);
+      const std::size_t start = numAllocations();
+      const TrackingResult& result = odometry.process(frame);
+      allocations += numAllocations() - start;
+      EXPECT_EQ(result.state, TrackingState::kTracking) << "walk " << walk << ", step " << step;
+    }
+    keyframes = odometry.result().keyframes - before;
+  }
+  return allocations;
+}
+
+// Buffers grow while the first frames and keyframes come; after that they serve again and again.
+TEST(AllocationTest, AFrameAllocatesNothingOnceTheBuffersHaveGrown) {
+  const testing::Recording recording = testing::recordWalk(15);
+  for (const Method method : {Method::kHybrid, Method::kMi, Method::kSsd}) {
+    for (const PhotometricModel model : {PhotometricModel::kLcn, PhotometricModel::kNone}) {
+      Parameters parameters;
+      parameters.method = method;
+      parameters.photometric_model = model;
+      parameters.keyframe_translation = 0.03;
+      int keyframes = 0;
+      EXPECT_EQ(allocationsOfLastWalk(recording, parameters, 8, keyframes), 0U)
+          << "method " << static_cast<int>(method) << ", model " << static_cast<int>(model);
+      EXPECT_GE(keyframes, 2) << "keyframes are to be among the frames";
+    }
+  }
+}
+
+}  // namespace
+}  // namespace mivo
