@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "mivo/core/recycled.h"
 
@@ -54,7 +53,7 @@ struct PatchRays {
 /// Intermediate results, and what can be used again for the next keyframe.
 struct Workspace {
   PatchRays rays;
-  std::vector<double> inverse;  // 1/z of the whole image, NaN for holes
+  std::vector<float> inverse;  // 1/z of the whole image
   ColumnSums columns;
   std::vector<std::vector<Patch>> bins;
   std::vector<Patch> spread;
@@ -76,36 +75,33 @@ void findRays(const Camera& camera, PatchRays& rays) {
   }
 }
 
-/// A hole makes every sum it gets into NaN.
-void invert(const cv::Mat& depth, std::vector<double>& inverse) {
-  constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+/// A hole becomes infinite, and whatever is made of the sums it gets into is not a number.
+void invert(const cv::Mat& depth, std::vector<float>& inverse) {
   inverse.resize(depth.total());
-  double* out = inverse.data();
+  float* out = inverse.data();
   for (int y = 0; y < depth.rows; ++y, out += depth.cols) {
     const auto* row = depth.ptr<float>(y);
-    for (int x = 0; x < depth.cols; ++x) {
-      out[x] = row[x] > 0.0F ? 1.0 / static_cast<double>(row[x]) : kNan;
-    }
+    for (int x = 0; x < depth.cols; ++x) out[x] = 1.0F / row[x];
   }
 }
 
 /// The sums of each column around row y.
-void sumColumns(const std::vector<double>& inverse, int y, std::size_t width, ColumnSums& sums) {
+void sumColumns(const std::vector<float>& inverse, int y, std::size_t width, ColumnSums& sums) {
   sums.inverse.resize(width);
   sums.times_row.resize(width);
   sums.squares.resize(width);
   static_assert(kRadius == 3, "seven rows are added below");
-  const double* middle = inverse.data() + static_cast<std::size_t>(y) * width;
+  const float* middle = inverse.data() + static_cast<std::size_t>(y) * width;
   const auto stride = static_cast<std::ptrdiff_t>(width);
   for (std::ptrdiff_t x = 0; x < stride; ++x) {
-    const double* at = middle + x;
-    const double a = at[-3 * stride];
-    const double b = at[-2 * stride];
-    const double c = at[-stride];
-    const double d = at[0];
-    const double e = at[stride];
-    const double f = at[2 * stride];
-    const double g = at[3 * stride];
+    const float* at = middle + x;
+    const auto a = static_cast<double>(at[-3 * stride]);
+    const auto b = static_cast<double>(at[-2 * stride]);
+    const auto c = static_cast<double>(at[-stride]);
+    const auto d = static_cast<double>(at[0]);
+    const auto e = static_cast<double>(at[stride]);
+    const auto f = static_cast<double>(at[2 * stride]);
+    const auto g = static_cast<double>(at[3 * stride]);
     const auto i = static_cast<std::size_t>(x);
     sums.inverse[i] = a + b + c + d + e + f + g;
     sums.times_row[i] = 3.0 * (g - a) + 2.0 * (f - b) + (e - c);
