@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mivo/core/image_view.h"
-
 namespace mivo {
 namespace {
 
@@ -24,18 +22,31 @@ void selectPoints(const cv::Mat& image, const cv::Mat& depth, bool is_coarsest,
   selectSalient(image, depth, limits, pixels);
 }
 
+template <typename Value>
+void leaveOutAbove(const cv::Mat& image, Value limit, std::vector<Pixel>& pixels) {
+  const auto stride = static_cast<std::ptrdiff_t>(image.step1());
+  std::size_t count = 0;
+  for (const Pixel& pixel : pixels) {
+    const Value* row = image.ptr<Value>(pixel.y) + pixel.x - stride;
+    Value highest = row[0];
+    for (int y = 0; y < 3; ++y, row += stride) {
+      highest = std::max({highest, row[-1], row[0], row[1]});
+    }
+    pixels[count] = pixel;
+    count += highest < limit ? 1U : 0U;  // no branch: nothing foresees it
+  }
+  pixels.resize(count);
+}
+
 /// Pixels with a neighbour that may be clipped: their gradient is not that of the scene.
 void leaveOutSaturated(const cv::Mat& image, double saturation, std::vector<Pixel>& pixels) {
-  const auto limit = static_cast<float>(saturation);
-  const auto is_saturated = [&](const Pixel& pixel) {
-    for (int y = pixel.y - 1; y <= pixel.y + 1; ++y) {
-      for (int x = pixel.x - 1; x <= pixel.x + 1; ++x) {
-        if (intensityAt(image, x, y) >= limit) return true;
-      }
-    }
-    return false;
-  };
-  pixels.erase(std::remove_if(pixels.begin(), pixels.end(), is_saturated), pixels.end());
+  if (image.type() == CV_8UC1) {
+    // Whole numbers: what reaches the limit reaches the next one above it.
+    const double limit = std::ceil(saturation);
+    if (limit <= 255.0) leaveOutAbove(image, static_cast<unsigned char>(limit), pixels);
+  } else {
+    leaveOutAbove(image, static_cast<float>(saturation), pixels);
+  }
 }
 
 }  // namespace
