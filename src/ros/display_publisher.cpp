@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <boost/make_shared.hpp>
 
+#include "mivo/ros/node_topics.h"
 #include "mivo/ros/topics.h"
 
 namespace mivo {
@@ -44,14 +45,17 @@ void addFrustum(const Camera& camera, const Eigen::Isometry3d& T,
 
 }  // namespace
 
-DisplayPublisher::DisplayPublisher(const ros::NodeHandle& node, const NodeParameters& parameters)
+DisplayPublisher::DisplayPublisher(const ros::NodeHandle& private_node,
+                                   const NodeParameters& parameters)
     : parameters_(parameters) {
-  ros::NodeHandle handle(node);
+  ros::NodeHandle handle(private_node);
+  const auto beside = [&](const char* topic) { return topicBeside(private_node, topic); };
   image_transport::ImageTransport transport(handle);
-  cloud_ = handle.advertise<sensor_msgs::PointCloud2>(topics::kKeyframeCloud, 1, true);
-  markers_ = handle.advertise<visualization_msgs::MarkerArray>(topics::kKeyframeMarkers, 1, true);
-  reference_ = transport.advertise(topics::kReferenceImage, 1, true);
-  residual_ = transport.advertise(topics::kResidualImage, 1);
+  cloud_ = handle.advertise<sensor_msgs::PointCloud2>(beside(topics::kKeyframeCloud), 1, true);
+  markers_ =
+      handle.advertise<visualization_msgs::MarkerArray>(beside(topics::kKeyframeMarkers), 1, true);
+  reference_ = transport.advertise(beside(topics::kReferenceImage), 1, true);
+  residual_ = transport.advertise(beside(topics::kResidualImage), 1);
 }
 
 void DisplayPublisher::publish(const Odometry& odometry, int keyframe,

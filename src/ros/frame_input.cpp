@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "mivo/core/association.h"
+#include "mivo/ros/node_topics.h"
 #include "mivo/ros/stamp.h"
 
 namespace mivo {
@@ -61,17 +62,17 @@ void forgetUntil(std::deque<ImageMessageConstPtr>& messages, const ros::Time& st
 
 }  // namespace
 
-FrameInput::FrameInput(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
-                       const NodeParameters& parameters, PairCallback callback)
+FrameInput::FrameInput(const ros::NodeHandle& private_node, const NodeParameters& parameters,
+                       PairCallback callback)
     : parameters_(withLongQueue(parameters)),
       callback_(std::move(callback)),
-      colour_(node, topics::kColour, parameters.rgb_transport,
+      colour_(private_node, topicBeside(private_node, topics::kColour), parameters.rgb_transport,
               static_cast<int>(subscriberQueue(parameters)),
               [this](const ImageMessageConstPtr& message) {
                 observe(message, waiting_colour_);
                 expect(0, waiting_colour_, message->header.stamp);
               }),
-      depth_(node, topics::kDepth, parameters.depth_transport,
+      depth_(private_node, topicBeside(private_node, topics::kDepth), parameters.depth_transport,
              static_cast<int>(subscriberQueue(parameters)),
              [this](const ImageMessageConstPtr& message) {
                observe(message, waiting_depth_);
@@ -79,15 +80,16 @@ FrameInput::FrameInput(const ros::NodeHandle& node, const ros::NodeHandle& priva
              }),
       last_pair_(ros::WallTime::now()),
       next_warning_(kSilence) {
-  ros::NodeHandle handle(node);
+  ros::NodeHandle handle(private_node);
+  const std::string camera_info_topic = topicBeside(private_node, topics::kCameraInfo);
   waiting_colour_.count.topic = colour_.topic();
   waiting_depth_.count.topic = depth_.topic();
-  camera_info_count_.topic = handle.resolveName(topics::kCameraInfo);
+  camera_info_count_.topic = handle.resolveName(camera_info_topic);
   connect();
   const boost::function<void(const sensor_msgs::CameraInfoConstPtr&)> take =
       [this](const sensor_msgs::CameraInfoConstPtr& message) { takeCameraInfo(message); };
   camera_info_subscriber_ = handle.subscribe<sensor_msgs::CameraInfo>(
-      topics::kCameraInfo, static_cast<std::uint32_t>(parameters.queue_size), take);
+      camera_info_topic, static_cast<std::uint32_t>(parameters.queue_size), take);
   colour_.subscribe(private_node);
   depth_.subscribe(private_node);
   timer_ = handle.createWallTimer(ros::WallDuration(kWatchPeriod),

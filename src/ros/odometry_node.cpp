@@ -39,14 +39,12 @@ OdometryNode::OdometryNode(const ros::NodeHandle& node, const ros::NodeHandle& p
                                       : FrameQueue<ImagePair>::Policy::kAll),
       session_(readParameters(private_node)),
       trajectory_(parameters_),
-      publisher_(node, parameters_),
-      display_(node, parameters_),
+      publisher_(private_node, parameters_),
+      display_(private_node, parameters_),
       transforms_(node, parameters_.base_frame, parameters_.guess_frame_id) {
-  const ros::NodeHandle input_node = withQueue(node, input_queue_);
   ros::NodeHandle service_node = withQueue(private_node, service_queue_);
-  input_ =
-      std::make_unique<FrameInput>(input_node, withQueue(private_node, input_queue_), parameters_,
-                                   [this](const ImagePair& pair) { frames_.push(pair); });
+  input_ = std::make_unique<FrameInput>(withQueue(private_node, input_queue_), parameters_,
+                                        [this](const ImagePair& pair) { frames_.push(pair); });
   rectified_ = isRectifiedTopic(input_->colourTopic());
   services_ =
       std::make_unique<OdometryServices>(service_node, static_cast<OdometryActions&>(*this));

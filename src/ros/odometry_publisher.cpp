@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "mivo/ros/node_topics.h"
 #include "mivo/ros/pose_conversion.h"
 #include "mivo/ros/topics.h"
 
@@ -17,12 +18,14 @@ constexpr int kPathBlocks = 10;      // a full path loses its oldest block at on
 
 }  // namespace
 
-OdometryPublisher::OdometryPublisher(const ros::NodeHandle& node, const NodeParameters& parameters)
+OdometryPublisher::OdometryPublisher(const ros::NodeHandle& private_node,
+                                     const NodeParameters& parameters)
     : parameters_(parameters) {
-  ros::NodeHandle handle(node);
-  odometry_ = handle.advertise<nav_msgs::Odometry>(topics::kOdometry, kOdometryQueue);
-  path_publisher_ = handle.advertise<nav_msgs::Path>(topics::kPath, 1, true);
-  status_ = handle.advertise<TrackingStatus>(topics::kStatus, kStatusQueue);
+  ros::NodeHandle handle(private_node);
+  const auto beside = [&](const char* topic) { return topicBeside(private_node, topic); };
+  odometry_ = handle.advertise<nav_msgs::Odometry>(beside(topics::kOdometry), kOdometryQueue);
+  path_publisher_ = handle.advertise<nav_msgs::Path>(beside(topics::kPath), 1, true);
+  status_ = handle.advertise<TrackingStatus>(beside(topics::kStatus), kStatusQueue);
   path_.header.frame_id = parameters.odom_frame;
 }
 

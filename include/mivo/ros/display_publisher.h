@@ -18,7 +18,7 @@ namespace mivo {
 /// residual/image. Nothing is computed for a topic that nobody listens to.
 class DisplayPublisher {
  public:
-  DisplayPublisher(const ros::NodeHandle& node, const NodeParameters& parameters);
+  DisplayPublisher(const ros::NodeHandle& private_node, const NodeParameters& parameters);
 
   /// @param keyframe      number of the odometry's present keyframe
   /// @param T_odom_world  world of the tracker in the published frame

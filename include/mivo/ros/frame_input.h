@@ -36,8 +36,8 @@ class FrameInput {
   using PairCallback = std::function<void(const ImagePair&)>;
 
   /// Throws Error when a transport cannot be used.
-  FrameInput(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
-             const NodeParameters& parameters, PairCallback callback);
+  FrameInput(const ros::NodeHandle& private_node, const NodeParameters& parameters,
+             PairCallback callback);
 
   /// Ends the subscriptions. What was waiting for a better partner is delivered, so that a bag's
   /// last frame is not lost. To be called when the queue's thread has stopped.

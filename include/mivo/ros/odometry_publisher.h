@@ -16,7 +16,7 @@ namespace mivo {
 /// Publishes odom, tf, path and status.
 class OdometryPublisher {
  public:
-  OdometryPublisher(const ros::NodeHandle& node, const NodeParameters& parameters);
+  OdometryPublisher(const ros::NodeHandle& private_node, const NodeParameters& parameters);
 
   /// @param T_guess_base  pose of the base in guess_frame_id at the stamp: then tf gets odom_frame
   /// ->

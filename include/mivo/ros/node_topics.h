@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ros/names.h>
+#include <ros/node_handle.h>
+
+#include <string>
+
+namespace mivo {
+
+/// Full name of a topic beside a node: `odom` of /robot/odometry is /robot/odom. To be used instead
+/// of relative names, for a nodelet's handle of the root namespace stands for the namespace of its
+/// manager: /camera/odom, and remappings of /odom would not be found.
+/// @param private_node  handle of the node's own namespace
+inline std::string topicBeside(const ros::NodeHandle& private_node, const std::string& topic) {
+  const std::string parent = ros::names::parentNamespace(private_node.getNamespace());
+  return ros::names::clean(ros::names::append(parent, topic));
+}
+
+}  // namespace mivo
