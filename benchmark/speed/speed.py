@@ -33,8 +33,13 @@ def arguments():
     parser.add_argument("--output", default=os.path.join(ROOT, "benchmark_output"),
                         metavar="FOLDER", help="for sequences, speed.md and plots")
     parser.add_argument("--quick", action="store_true", help="few frames: whether it works")
+    parser.add_argument("--repetitions", type=int, metavar="N",
+                        help="runs of which the median counts (default 3, quick 1)")
     parser.add_argument("--document", action="store_true", help="write doc/speed.md, too")
-    return parser.parse_args()
+    options = parser.parse_args()
+    if options.repetitions is not None and options.repetitions < 1:
+        parser.error("--repetitions must be 1 at least")
+    return options
 
 
 def machine():
@@ -91,6 +96,8 @@ def document(plan, sequences, kernels, sizes, points, bins):
 def main():
     options = arguments()
     plan = measure.Plan(options.quick)
+    if options.repetitions is not None:
+        plan.repetitions = options.repetitions
     folder = os.path.abspath(options.output)
     try:
         programs = Programs(options.build, folder)

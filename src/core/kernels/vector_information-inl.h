@@ -131,6 +131,7 @@ struct alignas(64) InformationTile {
   float live[4 * kTile];
   float g[4 * kTile];  // four parts for each point
   float h[4 * kTile];
+  float moments[4 * kRowFloats * kTile];  // the four live weights times the Jacobian
 };
 
 HWY_INLINE void weighTile(const BinsView& reference, const BinsView& live, const float* active,
@@ -146,14 +147,31 @@ HWY_INLINE void weighTile(const BinsView& reference, const BinsView& live, const
   }
 }
 
-HWY_INLINE void spreadTile(const BinsView& reference, const BinsView& live,
-                           const float* jacobian_rows, std::size_t begin, std::size_t count,
-                           int side, const float* log_ratio, float* rows, InformationTile& tile) {
-  const Four four;
+HWY_INLINE void multiplyTile(const float* jacobian_rows, std::size_t begin, std::size_t count,
+                             InformationTile& tile) {
   const hn::CappedTag<float, kRowFloats> wide;
+  float* moments = tile.moments;
+  for (std::size_t i = 0; i < count; ++i) {
+    const float* J = jacobian_rows + (begin + i) * kRowFloats;
+    for (std::size_t b = 0; b < 4; ++b, moments += kRowFloats) {
+      const auto weight = hn::Set(wide, tile.live[4 * i + b]);
+      for (std::size_t k = 0; k < kRowFloats; k += hn::Lanes(wide)) {
+        hn::Store(hn::Mul(weight, hn::LoadU(wide, J + k)), wide, moments + k);
+      }
+    }
+  }
+}
+
+HWY_INLINE void spreadTile(const BinsView& reference, const BinsView& live, std::size_t begin,
+                           std::size_t count, int side, const float* log_ratio, float* rows,
+                           InformationTile& tile) {
+  // The rows of the four live bins are neighbours: whole vectors of them are added to at once.
+  constexpr std::size_t kMoments = 4 * kRowFloats;
+  const Four four;
+  const hn::CappedTag<float, 16> wide;
   for (std::size_t i = 0; i < count; ++i) {
     const std::size_t at = begin + i;
-    const float* J = jacobian_rows + at * kRowFloats;
+    const float* moments = tile.moments + kMoments * i;
     const auto weights = hn::Load(four, tile.live + 4 * i);
     auto g = hn::Zero(four);
     auto h = hn::Zero(four);
@@ -164,12 +182,10 @@ HWY_INLINE void spreadTile(const BinsView& reference, const BinsView& live,
       g = hn::MulAdd(hn::Set(four, first), ratios, g);
       h = hn::MulAdd(hn::Set(four, tile.second[4 * i + a]), ratios, h);
       float* row = rows + entry * kRowFloats;
-      for (std::size_t b = 0; b < 4; ++b, row += kRowFloats) {
-        const auto product = hn::Set(wide, first * tile.live[4 * i + b]);
-        for (std::size_t k = 0; k < kRowFloats; k += hn::Lanes(wide)) {
-          hn::StoreU(hn::MulAdd(product, hn::LoadU(wide, J + k), hn::LoadU(wide, row + k)), wide,
-                     row + k);
-        }
+      const auto factor = hn::Set(wide, first);
+      for (std::size_t k = 0; k < kMoments; k += hn::Lanes(wide)) {
+        hn::StoreU(hn::MulAdd(factor, hn::Load(wide, moments + k), hn::LoadU(wide, row + k)), wide,
+                   row + k);
       }
     }
     hn::Store(g, four, tile.g + 4 * i);
@@ -183,14 +199,31 @@ HWY_INLINE FloatVector sumOfFour(const float* parts) {
   return hn::Add(hn::Add(a, b), hn::Add(c, e));
 }
 
+/// Sums of the lanes over some tiles.
+struct InformationParts {
+  FloatVector gradient[6];
+  FloatVector curvature[21];
+};
+
+HWY_INLINE void clear(InformationParts& parts) {
+  for (FloatVector& part : parts.gradient) part = hn::Zero(Floats());
+  for (FloatVector& part : parts.curvature) part = hn::Zero(Floats());
+}
+
+HWY_INLINE void addUp(InformationParts& parts, InformationSums& sums) {
+  for (int k = 0; k < 6; ++k) sums.gradient[k] += total(parts.gradient[k]);
+  for (int k = 0; k < 21; ++k) sums.curvature[k] += total(parts.curvature[k]);
+  clear(parts);
+}
+
 HWY_INLINE void sumTile(const InformationTile& tile, const float* const jacobian[6],
                         const float* const second_derivative[21], float bin_scale,
-                        std::size_t begin, std::size_t count, InformationSums& sums) {
+                        std::size_t begin, std::size_t count, InformationParts& parts) {
   const Floats d;
   FloatVector gradient[6];
   FloatVector curvature[21];
-  for (FloatVector& part : gradient) part = hn::Zero(d);
-  for (FloatVector& part : curvature) part = hn::Zero(d);
+  std::copy(parts.gradient, parts.gradient + 6, gradient);
+  std::copy(parts.curvature, parts.curvature + 21, curvature);
   for (std::size_t i = 0; i < count; i += hn::Lanes(d)) {
     const std::size_t at = begin + i;
     const FloatVector g = sumOfFour(tile.g + 4 * i);
@@ -207,8 +240,8 @@ HWY_INLINE void sumTile(const InformationTile& tile, const float* const jacobian
       }
     }
   }
-  for (int k = 0; k < 6; ++k) sums.gradient[k] += total(gradient[k]);
-  for (int k = 0; k < 21; ++k) sums.curvature[k] += total(curvature[k]);
+  std::copy(gradient, gradient + 6, parts.gradient);
+  std::copy(curvature, curvature + 21, parts.curvature);
 }
 
 inline void informationDerivatives(const BinsView& reference, const BinsView& live,
@@ -227,11 +260,15 @@ inline void informationDerivatives(const BinsView& reference, const BinsView& li
                                     jacobian_rows + whole * kRowFloats, J, S, n - whole, side,
                                     bin_scale, log_ratio, rows, sums);
   InformationTile tile;
+  InformationParts parts;
+  clear(parts);
   for (std::size_t begin = 0; begin < whole; begin += kTile) {
     const std::size_t count = std::min(kTile, whole - begin);
     weighTile(reference, live, active, begin, count, tile);
-    spreadTile(reference, live, jacobian_rows, begin, count, side, log_ratio, rows, tile);
-    sumTile(tile, jacobian, second_derivative, bin_scale, begin, count, sums);
+    multiplyTile(jacobian_rows, begin, count, tile);
+    spreadTile(reference, live, begin, count, side, log_ratio, rows, tile);
+    sumTile(tile, jacobian, second_derivative, bin_scale, begin, count, parts);
+    if ((begin + count) % kSumLength == 0 || begin + count == whole) addUp(parts, sums);
   }
 }
 
