@@ -73,9 +73,8 @@ inline void keepSmooth(const float* const depth[3], int width, float edge_ratio,
                        std::uint8_t* candidates) {
   const Floats d;
   const hn::Rebind<std::uint8_t, Floats> d8;
-  const auto lanes = static_cast<int>(hn::Lanes(d));
-  int x = first;
-  for (; x + lanes < width; x += lanes) {
+  // Marked away twice is marked away: vectors may overlap.
+  const auto keep = [&](int x) HWY_ATTR {
     const FloatVector centre = hn::LoadU(d, depth[1] + x);
     FloatVector lowest = centre;
     FloatVector highest = centre;
@@ -93,8 +92,9 @@ inline void keepSmooth(const float* const depth[3], int width, float edge_ratio,
         hn::IfThenElseZero(hn::RebindMask(Integers(), is_smooth), hn::Set(Integers(), 1));
     const auto kept = hn::And(hn::LoadU(d8, candidates + x), hn::DemoteTo(d8, flag));
     hn::StoreU(kept, d8, candidates + x);
-  }
-  reference::keepSmooth(depth, width, edge_ratio, x, candidates);
+  };
+  const int rest = forWholeVectors(first, width - 1, keep);
+  reference::keepSmooth(depth, width, edge_ratio, rest, candidates);
 }
 
 }  // namespace HWY_NAMESPACE

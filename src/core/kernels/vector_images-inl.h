@@ -299,21 +299,32 @@ inline void normaliseImage(const ImageView& image, const ContrastView& contrast,
   }
 }
 
+/// Calls body(x) for whole vectors over first <= x < end; the last one overlaps the one before
+/// where they do not fit evenly. Returns where the rest begins: `first` where there is no room for
+/// one.
+template <typename Body>
+HWY_INLINE int forWholeVectors(int first, int end, const Body& body) {
+  const auto lanes = static_cast<int>(hn::Lanes(Floats()));
+  if (end - first < lanes) return first;
+  int x = first;
+  for (; x + lanes <= end; x += lanes) body(x);
+  if (x < end) body(end - lanes);
+  return end;
+}
+
 inline void gradientRow(const ImageView& image, int y, float* squared) {
   const Floats d;
-  const auto lanes = static_cast<int>(hn::Lanes(d));
   const std::ptrdiff_t row = y * image.stride;
   squared[0] = 0.0F;
   squared[image.width - 1] = 0.0F;
-  int x = 1;
-  for (; x + lanes < image.width; x += lanes) {
+  const auto square = [&](int x) HWY_ATTR {
     const FloatVector gx =
         hn::Sub(intensities(image, row + x + 1), intensities(image, row + x - 1));
     const FloatVector gy = hn::Sub(intensities(image, row + x + image.stride),
                                    intensities(image, row + x - image.stride));
     hn::StoreU(hn::Mul(all(0.25F), hn::MulAdd(gx, gx, hn::Mul(gy, gy))), d, squared + x);
-  }
-  reference::gradientTail(image, y, x, squared);
+  };
+  reference::gradientTail(image, y, forWholeVectors(1, image.width - 1, square), squared);
 }
 
 inline void maximaRow(const ImageView& image, int y, const float* const squared[3], float threshold,
@@ -321,11 +332,9 @@ inline void maximaRow(const ImageView& image, int y, const float* const squared[
   constexpr float kTan22_5 = 0.41421356F;
   const Floats d;
   const hn::Rebind<std::uint8_t, Floats> d8;
-  const auto lanes = static_cast<int>(hn::Lanes(d));
   const std::ptrdiff_t row = y * image.stride;
   for (int x = 0; x < 2 && x < image.width; ++x) maximal[x] = 0;
-  int x = 2;
-  for (; x + lanes + 2 <= image.width; x += lanes) {
+  const auto mark = [&](int x) HWY_ATTR {
     const FloatVector here = hn::LoadU(d, squared[1] + x);
     const FloatMask is_strong = hn::And(hn::Gt(here, all(0.0F)), hn::Ge(here, all(threshold)));
     const FloatVector gx =
@@ -352,8 +361,9 @@ inline void maximaRow(const ImageView& image, int y, const float* const squared[
     const auto one =
         hn::IfThenElseZero(hn::RebindMask(Integers(), is_maximal), hn::Set(Integers(), 1));
     hn::StoreU(hn::DemoteTo(d8, one), d8, maximal + x);
-  }
-  reference::maximaTail(image, y, squared, threshold, x, maximal);
+  };
+  const int rest = forWholeVectors(2, image.width - 2, mark);
+  reference::maximaTail(image, y, squared, threshold, rest, maximal);
 }
 
 }  // namespace HWY_NAMESPACE
