@@ -6,6 +6,12 @@
 #include "mivo/core/depth_pyramid.h"
 
 namespace mivo {
+namespace {
+
+// Side of the blocks whose points err together, as a share of the image's width.
+constexpr double kBlocksPerRow = 10.0;
+
+}  // namespace
 
 GeometricTerm::GeometricTerm(const GeometricPoints& points, std::size_t num_points,
                              const FramePyramid& live, const Warp& warp,
@@ -50,6 +56,13 @@ void GeometricTerm::measure(const Eigen::Isometry3d& T_live_ref) {
       residuals_->visible.data(), residuals_->value.data(), columns);
   T_live_ref_ = T_live_ref;
   is_measured_ = true;
+}
+
+int GeometricTerm::gradientCovariance(Matrix6& covariance) const {
+  std::array<const float*, 6> jacobian;
+  for (std::size_t k = 0; k < 6; ++k) jacobian[k] = (*jacobian_)[k].data();
+  return sum_.scoreCovariance(*residuals_, jacobian, *u_, *v_, warp_.camera().width / kBlocksPerRow,
+                              covariance);
 }
 
 QuadraticModel GeometricTerm::linearise(int iteration) {

@@ -1,17 +1,31 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mivo/core/keyframe_policy.h"
 
+#include <algorithm>
+
 namespace mivo {
+namespace {
+
+constexpr double kPatienceInTheDark = 4.0;
+// A keyframe is changed before its overlap is so small that frames are lost.
+constexpr double kOverlapMargin = 0.1;
+
+}  // namespace
 
 bool needsNewKeyframe(const Alignment& alignment, const Keyframe& keyframe,
                       const KeyframeQuality& first, const Parameters& parameters) {
   if (parameters.keyframe_policy == KeyframePolicy::kFirst) return false;
   const Vector6 motion = localCoordinates(alignment.T_live_ref.inverse());
-  if (motion.head<3>().norm() > parameters.keyframe_translation * keyframe.medianDepth() ||
-      motion.tail<3>().norm() > parameters.keyframe_rotation ||
-      alignment.overlap < parameters.keyframe_overlap) {
+  // An image that shows too little would be a poor reference: better one that is far away.
+  const double patience = alignment.is_blind ? kPatienceInTheDark : 1.0;
+  const double least_overlap = 1.0 - patience * (1.0 - parameters.keyframe_overlap);
+  if (motion.head<3>().norm() >
+          patience * parameters.keyframe_translation * keyframe.medianDepth() ||
+      motion.tail<3>().norm() > patience * parameters.keyframe_rotation ||
+      alignment.overlap < std::max(least_overlap, parameters.lost_overlap + kOverlapMargin)) {
     return true;
   }
+  if (alignment.is_blind) return false;
   const double ratio = parameters.keyframe_information;
   const bool less_information = first.mutual_information > 0.0 &&
                                 alignment.mutual_information < ratio * first.mutual_information;

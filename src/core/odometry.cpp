@@ -1,44 +1,30 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mivo/core/odometry.h"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <optional>
 
 #include "mivo/core/cpu_clock.h"
 #include "mivo/core/error.h"
 #include "mivo/core/frame_pyramid.h"
 #include "mivo/core/keyframe.h"
 #include "mivo/core/keyframe_policy.h"
+#include "mivo/core/keyframe_store.h"
 #include "mivo/core/keyframe_view.h"
 #include "mivo/core/motion_model.h"
+#include "mivo/core/pose_covariance.h"
+#include "mivo/core/recovery.h"
 #include "mivo/core/tracker.h"
 
 namespace mivo {
 namespace {
 
-// Standard deviations of a pose that is only a guess: m and rad.
-constexpr double kGuessTranslation = 1.0;
-constexpr double kGuessRotation = 1.0;
-// No pose is known better than this: the rounding of depth and of the camera's parameters.
-constexpr double kFloorTranslation = 1e-5;
-constexpr double kFloorRotation = 1e-5;
-
-Matrix6 diagonalCovariance(double translation, double rotation) {
-  Vector6 variance;
-  variance.head<3>().setConstant(translation * translation);
-  variance.tail<3>().setConstant(rotation * rotation);
-  return variance.asDiagonal();
-}
-
-/// Covariance of the pose's error in the axes of the camera. The increment d lives in the keyframe:
-/// T_odom_live = T_odom_ref retract(d) T_ref_live, which moves the live camera by Ad(T_live_ref) d.
-Matrix6 poseCovariance(const Alignment& alignment) {
-  const Matrix6 of_increment = alignment.information.ldlt().solve(Matrix6(Matrix6::Identity()));
-  const Matrix6 Ad = adjoint(alignment.T_live_ref);
-  const Matrix6 covariance = Ad * of_increment * Ad.transpose();
-  return 0.5 * (covariance + covariance.transpose()) +
-         diagonalCovariance(kFloorTranslation, kFloorRotation);
-}
+// Fewer grey levels of contrast are no view that a lost camera could start anew from.
+constexpr double kMinContrast = 1.0;
+// A dark image is waited for so many times longer.
+constexpr int kPatienceInTheDark = 4;
+// Motion is not continued for longer than this, periods.
+constexpr double kMaxExtrapolation = 30.0;
 
 void requireFinite(const Eigen::Isometry3d& T_odom_camera) {
   if (!T_odom_camera.matrix().allFinite()) throw Error("pose: a number of it is not finite");
@@ -65,33 +51,40 @@ class Odometry::Implementation {
   Parameters parameters_;
   TrackingResult result_;
   FramePyramid live_;
-  Keyframe keyframe_;
-  bool has_keyframe_ = false;
-  bool keyframe_is_outdated_ = false;  // a parameter changed that it was made with
-  Eigen::Isometry3d T_odom_keyframe_ = Eigen::Isometry3d::Identity();
+  KeyframeStore keyframes_;
+  bool keyframes_are_outdated_ = false;  // a parameter changed that they were made with
 
  private:
   void startResult(const Frame& frame);
   bool isUsable(const Frame& frame);
+  void startFirstKeyframe(const Frame& frame, const Eigen::Isometry3d& T_odom_camera_start);
+  Alignment alignWith(const PosedKeyframe& keyframe, const Frame& frame,
+                      const Eigen::Isometry3d& T_odom_camera_start) const;
   void track(const Frame& frame, const Eigen::Isometry3d& T_odom_camera_start);
+  std::optional<Alignment> recover(const Frame& frame);
+  void record(const Alignment& alignment);
   void accept(const Frame& frame, const Alignment& alignment);
-  void lose(const Frame& frame, const Eigen::Isometry3d& guess, TrackingReason reason);
+  void lose(const Frame& frame, const Eigen::Isometry3d& guess, TrackingReason reason,
+            bool is_blind);
   void setQuality(const Alignment& alignment);
-  bool makeKeyframe(const Eigen::Isometry3d& T_odom_camera, const Vector6& twist_per_period);
+  bool makeKeyframe(const Eigen::Isometry3d& T_odom_camera, const Vector6& twist_per_period,
+                    const Matrix6& covariance);
+  bool isConvincing(const Alignment& alignment) const;
   double readout() const;
   ShutterTimes shutter() const;
-  TrackingReason judge(const Frame& frame, const Alignment& alignment) const;
+  TrackingReason judge(const Frame& frame, const PosedKeyframe& keyframe,
+                       const Alignment& alignment) const;
 
   MotionModel motion_;
   ReadoutEstimator readout_;
-  Keyframe candidate_;  // for the next keyframe: the last but one, whose memory serves again
   KeyframeQuality first_quality_;  // of the first frame tracked against the keyframe
   Eigen::Isometry3d T_odom_camera_ = Eigen::Isometry3d::Identity();  // last pose to be trusted
   double pose_stamp_ = 0.0;
   double last_stamp_ = 0.0;
   bool has_stamp_ = false;
-  int keyframes_ = 0;
-  int segment_ = 0;
+  int num_keyframes_ = 0;
+  int segment_ = 0;       // of the last pose
+  int num_segments_ = 1;  // so far
   int lost_in_a_row_ = 0;
 };
 
@@ -102,8 +95,8 @@ void Odometry::Implementation::startResult(const Frame& frame) {
   result_.state = last.state;
   result_.T_odom_camera = last.T_odom_camera;
   result_.covariance = last.covariance;
-  result_.keyframe = has_keyframe_ ? keyframes_ : 0;
-  result_.keyframes = keyframes_;
+  result_.keyframe = keyframes_.isEmpty() ? 0 : keyframes_.current().number;
+  result_.keyframes = num_keyframes_;
   result_.segment = segment_;
 }
 
@@ -126,43 +119,110 @@ void Odometry::Implementation::process(const Frame& frame, const Eigen::Isometry
 
   const Eigen::Isometry3d T_odom_camera_start =
       start != nullptr && start->matrix().allFinite() ? *start : predictedPose(frame.stamp);
-  if (has_keyframe_ && keyframe_is_outdated_) {
-    // Made with other parameters: the frame takes its place before it can be compared.
-    has_keyframe_ = false;
+  if (keyframes_are_outdated_) {
+    // Made with other parameters: the frame takes their place before it can be compared.
+    keyframes_.clear();
+    keyframes_are_outdated_ = false;
     lost_in_a_row_ = 0;
   }
-  if (has_keyframe_) {
-    track(frame, T_odom_camera_start);
-  } else if (makeKeyframe(T_odom_camera_start, Vector6::Zero())) {
-    result_.state = TrackingState::kTracking;
-    result_.T_odom_camera = T_odom_camera_ = T_odom_camera_start;
-    // The first pose is true by definition; later ones without a keyframe are predicted.
-    result_.covariance = keyframes_ == 1 ? diagonalCovariance(kFloorTranslation, kFloorRotation)
-                                         : diagonalCovariance(kGuessTranslation, kGuessRotation);
-    result_.overlap = 1.0;
-    motion_.add(frame.stamp, T_odom_camera_);
-    pose_stamp_ = frame.stamp;
+  if (keyframes_.isEmpty()) {
+    startFirstKeyframe(frame, T_odom_camera_start);
   } else {
-    result_.state = TrackingState::kInitialising;
-    result_.reason = TrackingReason::kTooFewPoints;
-    result_.T_odom_camera = T_odom_camera_start;
-    result_.covariance = diagonalCovariance(kGuessTranslation, kGuessRotation);
+    track(frame, T_odom_camera_start);
   }
-  result_.keyframes = keyframes_;
+  result_.keyframes = num_keyframes_;
   result_.segment = segment_;
   result_.rolling_shutter_readout = readout() * motion_.period(parameters_);
   result_.milliseconds.total = threadMilliseconds() - begin;
 }
 
+void Odometry::Implementation::startFirstKeyframe(const Frame& frame,
+                                                  const Eigen::Isometry3d& T_odom_camera_start) {
+  // The first pose is true by definition; later ones without a keyframe are predicted.
+  const Matrix6 covariance = num_keyframes_ == 0 ? floorCovariance() : guessCovariance();
+  result_.T_odom_camera = T_odom_camera_start;
+  if (!makeKeyframe(T_odom_camera_start, Vector6::Zero(), covariance)) {
+    result_.state = TrackingState::kInitialising;
+    result_.reason = TrackingReason::kTooFewPoints;
+    result_.covariance = guessCovariance();
+    return;
+  }
+  result_.state = TrackingState::kTracking;
+  T_odom_camera_ = T_odom_camera_start;
+  result_.covariance = covariance;
+  result_.overlap = 1.0;
+  motion_.add(frame.stamp, T_odom_camera_);
+  pose_stamp_ = frame.stamp;
+}
+
+Alignment Odometry::Implementation::alignWith(const PosedKeyframe& keyframe, const Frame& frame,
+                                              const Eigen::Isometry3d& T_odom_camera_start) const {
+  const Eigen::Isometry3d T_start_ref = T_odom_camera_start.inverse() * keyframe.T_odom_keyframe;
+  // From another segment nothing leads here: the camera counts as standing still.
+  const Eigen::Isometry3d T_previous_ref = keyframe.segment == segment_
+                                               ? T_odom_camera_.inverse() * keyframe.T_odom_keyframe
+                                               : T_start_ref;
+  return align({keyframe.keyframe, live_, camera_, T_start_ref, T_previous_ref,
+                motion_.periodsSince(frame.stamp, parameters_), shutter()},
+               parameters_);
+}
+
 void Odometry::Implementation::track(const Frame& frame,
                                      const Eigen::Isometry3d& T_odom_camera_start) {
   const double begin = threadMilliseconds();
-  const Alignment alignment =
-      align({keyframe_, live_, camera_, T_odom_camera_start.inverse() * T_odom_keyframe_,
-             T_odom_camera_.inverse() * T_odom_keyframe_,
-             motion_.periodsSince(frame.stamp, parameters_), shutter()},
-            parameters_);
+  Alignment alignment = alignWith(keyframes_.current(), frame, T_odom_camera_start);
+  TrackingReason reason = judge(frame, keyframes_.current(), alignment);
+  if (!alignment.is_blind && (reason != TrackingReason::kNone || !isConvincing(alignment))) {
+    if (reason == TrackingReason::kNone) {
+      const Alignment second = alignWith(keyframes_.current(), frame, T_odom_camera_);
+      if (judge(frame, keyframes_.current(), second) == TrackingReason::kNone &&
+          second.correlation > alignment.correlation) {
+        alignment = second;
+      }
+    } else if (const auto found = recover(frame)) {
+      alignment = *found;
+      reason = TrackingReason::kNone;
+    }
+  }
   result_.milliseconds.tracking = threadMilliseconds() - begin;
+  record(alignment);
+  if (reason == TrackingReason::kNone) {
+    accept(frame, alignment);
+  } else {
+    lose(frame, T_odom_camera_start, reason, alignment.is_blind);
+  }
+}
+
+/// Tries other starts and other keyframes. The keyframe that works becomes the current one.
+std::optional<Alignment> Odometry::Implementation::recover(const Frame& frame) {
+  const double periods = motion_.periodsSince(frame.stamp, parameters_);
+  const Eigen::Isometry3d T_odom_predicted =
+      periods <= kMaxExtrapolation ? predictedPose(frame.stamp) : T_odom_camera_;
+  for (const RecoveryAttempt& attempt :
+       recoveryAttempts(keyframes_, T_odom_camera_, T_odom_predicted, lost_in_a_row_)) {
+    const PosedKeyframe& keyframe = keyframes_.at(attempt.keyframe);
+    const Alignment alignment = alignWith(keyframe, frame, attempt.T_odom_camera);
+    if (judge(frame, keyframe, alignment) != TrackingReason::kNone || !isConvincing(alignment)) {
+      continue;
+    }
+    if (attempt.keyframe > 0) {
+      keyframes_.choose(attempt.keyframe);
+      first_quality_ = {};
+      result_.keyframe = keyframe.number;
+    }
+    return alignment;
+  }
+  return std::nullopt;
+}
+
+/// Whether an alignment is good enough to be believed without its history. Mutual information alone
+/// has no correlation; there its significance, which judge() has asked for, must do.
+bool Odometry::Implementation::isConvincing(const Alignment& alignment) const {
+  return parameters_.method == Method::kMi ||
+         (alignment.sees_image && alignment.correlation >= parameters_.retry_correlation);
+}
+
+void Odometry::Implementation::record(const Alignment& alignment) {
   result_.num_levels = alignment.num_levels;
   result_.levels = alignment.levels;
   result_.points = alignment.points;
@@ -170,16 +230,9 @@ void Odometry::Implementation::track(const Frame& frame,
   result_.mutual_information = alignment.mutual_information;
   result_.residual_scale = alignment.residual_scale;
   result_.correlation = alignment.correlation;
-
-  const TrackingReason reason = judge(frame, alignment);
-  if (reason == TrackingReason::kNone) {
-    accept(frame, alignment);
-  } else {
-    lose(frame, T_odom_camera_start, reason);
-  }
 }
 
-TrackingReason Odometry::Implementation::judge(const Frame& frame,
+TrackingReason Odometry::Implementation::judge(const Frame& frame, const PosedKeyframe& keyframe,
                                                const Alignment& alignment) const {
   if (!alignment.T_live_ref.matrix().allFinite() || !alignment.information.allFinite()) {
     return TrackingReason::kNotFinite;
@@ -191,11 +244,10 @@ TrackingReason Odometry::Implementation::judge(const Frame& frame,
   }
   if (alignment.overlap < parameters_.lost_overlap) return TrackingReason::kNoOverlap;
   if (alignment.points < parameters_.lost_points) return TrackingReason::kTooFewPoints;
-  if (!(poseCovariance(alignment).ldlt().isPositive()) || !poseCovariance(alignment).allFinite()) {
-    return TrackingReason::kSingular;
-  }
+  if (!alignment.covariance.allFinite()) return TrackingReason::kSingular;
+  if (keyframe.segment != segment_) return TrackingReason::kNone;
   const double seconds = frame.stamp - pose_stamp_;
-  const Vector6 motion = localCoordinates(T_odom_camera_.inverse() * T_odom_keyframe_ *
+  const Vector6 motion = localCoordinates(T_odom_camera_.inverse() * keyframe.T_odom_keyframe *
                                           alignment.T_live_ref.inverse());
   if (motion.head<3>().norm() > parameters_.lost_speed * seconds ||
       motion.tail<3>().norm() > parameters_.lost_turn_rate * seconds) {
@@ -206,23 +258,31 @@ TrackingReason Odometry::Implementation::judge(const Frame& frame,
 
 void Odometry::Implementation::accept(const Frame& frame, const Alignment& alignment) {
   const Eigen::Isometry3d T_odom_previous = T_odom_camera_;
-  T_odom_camera_ = orthonormalised(T_odom_keyframe_ * alignment.T_live_ref.inverse());
-  const Vector6 twist_per_period = localCoordinates(T_odom_camera_.inverse() * T_odom_previous) /
-                                   motion_.periodsSince(frame.stamp, parameters_);
+  const PosedKeyframe& keyframe = keyframes_.current();
+  T_odom_camera_ = orthonormalised(keyframe.T_odom_keyframe * alignment.T_live_ref.inverse());
+  Vector6 twist_per_period = localCoordinates(T_odom_camera_.inverse() * T_odom_previous) /
+                             motion_.periodsSince(frame.stamp, parameters_);
+  // Over a long gap, or from another segment, the mean velocity is not the present one.
+  if (lost_in_a_row_ >= parameters_.lost_frames || keyframe.segment != segment_) {
+    motion_.stop();
+    twist_per_period.setZero();
+  }
   pose_stamp_ = frame.stamp;
   lost_in_a_row_ = 0;
+  segment_ = keyframe.segment;
   motion_.add(frame.stamp, T_odom_camera_);
   setQuality(alignment);
   // Held against a keyframe whose own velocity is not known, a frame says nothing about the rows.
-  if (!keyframe_.twistPerPeriod().isZero(0.0)) readout_.add(alignment.readout);
+  if (!keyframe.keyframe.twistPerPeriod().isZero(0.0)) readout_.add(alignment.readout);
   result_.T_odom_camera = T_odom_camera_;
-  result_.covariance = poseCovariance(alignment);
+  result_.covariance =
+      liveCovariance(alignment.T_live_ref, alignment.covariance, keyframe.covariance);
   result_.velocity = motion_.velocity(parameters_);
   if (first_quality_.mutual_information == 0.0 && first_quality_.residual_scale == 0.0) {
     first_quality_ = {alignment.mutual_information, alignment.residual_scale};
   }
-  if (needsNewKeyframe(alignment, keyframe_, first_quality_, parameters_)) {
-    makeKeyframe(T_odom_camera_, twist_per_period);
+  if (needsNewKeyframe(alignment, keyframe.keyframe, first_quality_, parameters_)) {
+    makeKeyframe(T_odom_camera_, twist_per_period, result_.covariance);
   }
 }
 
@@ -238,24 +298,29 @@ void Odometry::Implementation::setQuality(const Alignment& alignment) {
 }
 
 void Odometry::Implementation::lose(const Frame& frame, const Eigen::Isometry3d& guess,
-                                    TrackingReason reason) {
+                                    TrackingReason reason, bool is_blind) {
+  ++lost_in_a_row_;
   result_.state = TrackingState::kLost;
   result_.reason = reason;
-  result_.T_odom_camera = guess;
-  result_.covariance = diagonalCovariance(kGuessTranslation, kGuessRotation);
-  ++lost_in_a_row_;
   // One frame may be bridged by its velocity; after that the last good pose is the best guess.
-  if (lost_in_a_row_ > 1) motion_.stop();
-  if (lost_in_a_row_ >= parameters_.lost_frames &&
-      parameters_.keyframe_policy != KeyframePolicy::kFirst &&
-      makeKeyframe(guess, Vector6::Zero())) {
-    ++segment_;
-    lost_in_a_row_ = 0;
-    motion_.stop();
-    motion_.add(frame.stamp, guess);
-    T_odom_camera_ = guess;
-    pose_stamp_ = frame.stamp;
+  result_.T_odom_camera = lost_in_a_row_ == 1 ? guess : T_odom_camera_;
+  result_.covariance = guessCovariance();
+  const int patience = parameters_.lost_frames * (is_blind ? kPatienceInTheDark : 1);
+  if (lost_in_a_row_ < patience || live_.contrastInView() < kMinContrast ||
+      parameters_.keyframe_policy == KeyframePolicy::kFirst) {
+    return;
   }
+  const int segment = segment_;
+  segment_ = num_segments_;
+  if (!makeKeyframe(T_odom_camera_, Vector6::Zero(), guessCovariance())) {
+    segment_ = segment;
+    return;
+  }
+  ++num_segments_;
+  lost_in_a_row_ = 0;
+  motion_.stop();
+  motion_.add(frame.stamp, T_odom_camera_);
+  pose_stamp_ = frame.stamp;
 }
 
 /// Time to read the rows of an image as a share of the frame period.
@@ -276,39 +341,43 @@ ShutterTimes Odometry::Implementation::shutter() const {
 }
 
 bool Odometry::Implementation::makeKeyframe(const Eigen::Isometry3d& T_odom_camera,
-                                            const Vector6& twist_per_period) {
+                                            const Vector6& twist_per_period,
+                                            const Matrix6& covariance) {
   const double begin = threadMilliseconds();
   readout_.endKeyframe();
-  candidate_.build(live_, camera_, twist_per_period, shutter(), parameters_);
+  PosedKeyframe& candidate = keyframes_.candidate();
+  candidate.keyframe.build(live_, camera_, twist_per_period, shutter(), parameters_);
   result_.milliseconds.keyframe = threadMilliseconds() - begin;
-  if (candidate_.numPoints() < static_cast<std::size_t>(parameters_.lost_points)) return false;
-  std::swap(keyframe_, candidate_);
-  has_keyframe_ = true;
-  keyframe_is_outdated_ = false;
-  T_odom_keyframe_ = T_odom_camera;
+  if (candidate.keyframe.numPoints() < static_cast<std::size_t>(parameters_.lost_points)) {
+    return false;
+  }
+  candidate.T_odom_keyframe = T_odom_camera;
+  candidate.covariance = covariance;
+  candidate.number = ++num_keyframes_;
+  candidate.segment = segment_;
+  keyframes_.promote(static_cast<std::size_t>(parameters_.recovery_keyframes));
   first_quality_ = {};
-  ++keyframes_;
   result_.new_keyframe = true;
   return true;
 }
 
 void Odometry::Implementation::reset(const Eigen::Isometry3d& T_odom_camera) {
-  if (has_keyframe_) ++segment_;
-  has_keyframe_ = false;
+  if (!keyframes_.isEmpty()) segment_ = num_segments_++;
+  keyframes_.clear();
   has_stamp_ = false;
   motion_ = MotionModel();
   lost_in_a_row_ = 0;
   T_odom_camera_ = orthonormalised(T_odom_camera);
   result_ = TrackingResult{};
   result_.T_odom_camera = T_odom_camera_;
-  result_.keyframes = keyframes_;
+  result_.keyframes = num_keyframes_;
   result_.segment = segment_;
 }
 
 void Odometry::Implementation::setPose(const Eigen::Isometry3d& T_odom_camera) {
   const Eigen::Isometry3d T_new_old =
       orthonormalised(T_odom_camera) * result_.T_odom_camera.inverse();
-  T_odom_keyframe_ = orthonormalised(T_new_old * T_odom_keyframe_);
+  keyframes_.transform(T_new_old);
   T_odom_camera_ = orthonormalised(T_new_old * T_odom_camera_);
   result_.T_odom_camera = orthonormalised(T_odom_camera);
   motion_.transform(T_new_old);
@@ -347,7 +416,7 @@ void Odometry::setPose(const Eigen::Isometry3d& T_odom_camera) {
 void Odometry::setParameters(const Parameters& parameters) {
   parameters.validate();
   Implementation& self = *implementation_;
-  if (needsNewKeyframe(self.parameters_, parameters)) self.keyframe_is_outdated_ = true;
+  if (needsNewKeyframe(self.parameters_, parameters)) self.keyframes_are_outdated_ = true;
   self.parameters_ = parameters;
 }
 
@@ -361,26 +430,28 @@ const TrackingResult& Odometry::result() const {
   return implementation_->result_;
 }
 bool Odometry::hasKeyframe() const {
-  return implementation_->has_keyframe_;
+  return !implementation_->keyframes_.isEmpty();
 }
 Eigen::Isometry3d Odometry::keyframePose() const {
-  return implementation_->T_odom_keyframe_;
+  return hasKeyframe() ? implementation_->keyframes_.current().T_odom_keyframe
+                       : Eigen::Isometry3d::Identity();
 }
 cv::Mat Odometry::keyframeImage() const {
-  return implementation_->keyframe_.image().clone();
+  if (!hasKeyframe()) return {};
+  return implementation_->keyframes_.current().keyframe.image().clone();
 }
 
 std::vector<CloudPoint> Odometry::keyframeCloud() const {
-  const Implementation& self = *implementation_;
-  if (!self.has_keyframe_) return {};
-  return makeCloud(self.keyframe_, self.camera_);
+  if (!hasKeyframe()) return {};
+  return makeCloud(implementation_->keyframes_.current().keyframe, implementation_->camera_);
 }
 
 cv::Mat Odometry::residualImage() const {
+  if (!hasKeyframe()) return {};
   const Implementation& self = *implementation_;
-  if (!self.has_keyframe_) return {};
-  return makeResidualImage(self.keyframe_, self.live_.grey(0), self.camera_,
-                           self.result_.T_odom_camera.inverse() * self.T_odom_keyframe_);
+  const PosedKeyframe& current = self.keyframes_.current();
+  return makeResidualImage(current.keyframe, self.live_.grey(0), self.camera_,
+                           self.result_.T_odom_camera.inverse() * current.T_odom_keyframe);
 }
 
 }  // namespace mivo

@@ -9,6 +9,7 @@
 #include "mivo/core/kernels/kernels.h"
 #include "mivo/core/parallel_chunks.h"
 #include "mivo/core/recycled.h"
+#include "mivo/core/robust_weight.h"
 
 namespace mivo {
 namespace {
@@ -105,6 +106,47 @@ double RobustSum::cost(const Residuals& residuals) {
   double sum = 0.0;
   for (const double part : *sums) sum += part;
   return sum * static_cast<double>(n) / static_cast<double>(residuals.num_visible);
+}
+
+int RobustSum::scoreCovariance(const Residuals& residuals,
+                               const std::array<const float*, 6>& jacobian,
+                               const std::vector<float>& u, const std::vector<float>& v,
+                               double block, Matrix6& covariance) const {
+  struct Block {
+    Vector6 score = Vector6::Zero();
+    int points = 0;
+  };
+  covariance.setZero();
+  if (residuals.num_visible == 0 || scale_ == 0.0) return 0;
+  const std::size_t n = residuals.value.size();
+  const auto last = [&](const std::vector<float>& x) {
+    return static_cast<std::size_t>(static_cast<double>(*std::max_element(x.begin(), x.end())) /
+                                    block);
+  };
+  const std::size_t columns = last(u) + 1;
+  Recycled<std::vector<Block>> blocks;
+  blocks->assign(columns * (last(v) + 1), Block{});
+  const auto inverse_scale = static_cast<float>(1.0 / scale_);
+  for (std::size_t i = 0; i < n; ++i) {
+    if (residuals.visible[i] == 0.0F) continue;
+    const auto column = static_cast<std::size_t>(static_cast<double>(u[i]) / block);
+    const auto row = static_cast<std::size_t>(static_cast<double>(v[i]) / block);
+    Block& here = (*blocks)[row * columns + column];
+    const float scaled = residuals.value[i] * inverse_scale;
+    const float influence = robustLoss(kind_, scaled).weight * scaled * inverse_scale;
+    for (std::size_t k = 0; k < 6; ++k) {
+      here.score[static_cast<int>(k)] += static_cast<double>(influence * jacobian[k][i]);
+    }
+    ++here.points;
+  }
+  int count = 0;
+  const double factor = static_cast<double>(n) / static_cast<double>(residuals.num_visible);
+  for (const Block& here : *blocks) {
+    if (here.points == 0) continue;
+    ++count;
+    covariance += factor * factor * here.score * here.score.transpose();
+  }
+  return count;
 }
 
 QuadraticModel RobustSum::linearise(const Residuals& residuals,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mivo/core/tracker.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <optional>
 
@@ -8,6 +9,7 @@
 #include "mivo/core/geometric_term.h"
 #include "mivo/core/mi_term.h"
 #include "mivo/core/minimise.h"
+#include "mivo/core/pose_covariance.h"
 #include "mivo/core/recycled.h"
 #include "mivo/core/ssd_term.h"
 
@@ -18,6 +20,11 @@ namespace {
 constexpr int kReadoutLevel = 1;
 // Neighbouring points say much the same: more of them do not make chance less likely.
 constexpr int kIndependentPoints = 1500;
+// Fewer blocks of the image say nothing about how much they err together.
+constexpr int kMinBlocks = 15;
+// What interpolation, blur and the keyframe's depth leave of systematic error, pixels: all points
+// err alike, so that no residual shows it.
+constexpr double kModelError = 0.05;
 
 /// Motion of the scene per frame period in the axes of the live camera at a pose.
 Vector6 twistPerPeriod(const AlignmentTask& task, const Eigen::Isometry3d& T_live_ref) {
@@ -88,10 +95,33 @@ class LevelAligner {
     alignment_.T_live_ref = minimum.T_live_ref;
     alignment_.information = minimum.hessian;
     alignment_.condition = minimum.condition;
+    if (level_ == 0) estimateCovariance(*terms_);
     record_.iterations += minimum.iterations;
     record_.evaluations += minimum.evaluations;
     record_.cost = minimum.cost / static_cast<double>(std::max<std::size_t>(1, points_.size()));
     record_.line_search_milliseconds += minimum.line_search_milliseconds;
+  }
+
+  /// H⁻¹ C H⁻¹ with the covariance C of the gradient. Residuals that were independent would make C
+  /// equal to H; they are not, and H⁻¹ alone would promise several times too much.
+  void estimateCovariance(const std::vector<CostTerm*>& terms) {
+    Matrix6 of_gradient = Matrix6::Zero();
+    int blocks = 0;
+    for (const CostTerm* term : terms) {
+      Matrix6 part;
+      blocks = std::max(blocks, term->gradientCovariance(part));
+      of_gradient += part;
+    }
+    const Matrix6 inverse = alignment_.information.ldlt().solve(Matrix6(Matrix6::Identity()));
+    alignment_.covariance = inverse;
+    if (blocks >= kMinBlocks) {
+      // Six directions have been fitted to the blocks.
+      const double fitted = static_cast<double>(blocks) / (blocks - 6.0);
+      alignment_.covariance = fitted * inverse * of_gradient * inverse.transpose();
+    }
+    const double angle = kModelError / warp_.camera().fx;
+    alignment_.covariance +=
+        diagonalCovariance(angle * static_cast<double>(points_.median_depth), angle);
   }
 
   double share(std::size_t points) const {

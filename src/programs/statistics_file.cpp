@@ -29,8 +29,11 @@ StatisticsFile::StatisticsFile(const std::string& path, Overwrite overwrite, int
   header +=
       ",mutual_information,residual_scale,overlap"
       ",sigma_tx,sigma_ty,sigma_tz,sigma_rx,sigma_ry,sigma_rz"
-      ",ms_pyramid,ms_tracking,ms_keyframe,ms_total,cpu_ms\n";
-  file_.write(header);
+      ",ms_pyramid,ms_tracking,ms_keyframe,ms_total,cpu_ms";
+  for (int i = 0; i < 6; ++i) {
+    for (int j = i; j < 6; ++j) header += fmt::format(",covariance_{}{}", i, j);
+  }
+  file_.write(header + "\n");
 }
 
 void StatisticsFile::write(double stamp, const TrackingResult& result, double cpu_ms) {
@@ -47,9 +50,12 @@ void StatisticsFile::write(double stamp, const TrackingResult& result, double cp
                      result.overlap);
   for (int i = 0; i < 6; ++i) row += fmt::format(",{:.6g}", std::sqrt(result.covariance(i, i)));
   const StageTimes& times = result.milliseconds;
-  row += fmt::format(",{:.3f},{:.3f},{:.3f},{:.3f},{:.3f}\n", times.pyramid, times.tracking,
+  row += fmt::format(",{:.3f},{:.3f},{:.3f},{:.3f},{:.3f}", times.pyramid, times.tracking,
                      times.keyframe, times.total, cpu_ms);
-  file_.write(row);
+  for (int i = 0; i < 6; ++i) {
+    for (int j = i; j < 6; ++j) row += fmt::format(",{:.9g}", result.covariance(i, j));
+  }
+  file_.write(row + "\n");
 }
 
 }  // namespace mivo

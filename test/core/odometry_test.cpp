@@ -235,11 +235,12 @@ TEST(OdometryTest, CovarianceIsSymmetricAndPositiveDefinite) {
 }
 
 // The spread of the errors over noise of other seeds is what the covariance says it is, up to a
-// factor of 3: it assumes independent residuals, and noise is not all there is. Mutual information
+// factor of 3. The noise is strong, so that the systematic part of the covariance, which is no
+// spread, is small beside it. Mutual information
 // is more cautious: its windows are wider than this noise, so it claims less than it knows.
 TEST(OdometryTest, CovarianceIsAboutTheSpreadOfTheErrors) {
   constexpr int kSeeds = 40;
-  constexpr double kNoise = 4.0;
+  constexpr double kNoise = 15.0;
   struct Case {
     Method method;
     PhotometricModel model;

@@ -104,6 +104,29 @@ TEST_P(TrackingLossTest, ALongLossStartsANewSegmentFromTheBestGuess) {
   EXPECT_LT(distance(result.T_odom_camera, guess), 1e-3);
 }
 
+TEST_P(TrackingLossTest, BackInAKnownPlaceTheCameraIsBackInItsSegment) {
+  double stamp = walk().frames[3].stamp;
+  for (int i = 0; i < odometry_.parameters().lost_frames + 2; ++i) {
+    odometry_.process(anotherPlace(stamp += kFramePeriod));
+  }
+  ASSERT_EQ(odometry_.result().segment, 1);
+  for (int i = 0; i < 3; ++i) odometry_.process(stamped(walk().frames[2], stamp += kFramePeriod));
+  const TrackingResult& result = odometry_.result();
+  EXPECT_EQ(result.state, TrackingState::kTracking);
+  EXPECT_EQ(result.segment, 0);
+  EXPECT_LT(distance(result.T_odom_camera, walk().T_first_camera[2]), 0.015);
+  EXPECT_LT(result.covariance(0, 0), 0.01);
+}
+
+TEST_P(TrackingLossTest, ANewSegmentKnowsThatItsPoseIsAGuess) {
+  double stamp = walk().frames[3].stamp;
+  for (int i = 0; i < odometry_.parameters().lost_frames + 1; ++i) {
+    odometry_.process(anotherPlace(stamp += kFramePeriod));
+  }
+  EXPECT_EQ(odometry_.result().state, TrackingState::kTracking);
+  EXPECT_GT(odometry_.result().covariance(0, 0), 0.5);
+}
+
 TEST_P(TrackingLossTest, ADarkFrameMakesNoKeyframeHoweverLongItLasts) {
   double stamp = walk().frames[3].stamp;
   const int keyframes = odometry_.result().keyframes;

@@ -27,6 +27,14 @@ class CostTerm {
   /// Model around the pose of the last evaluate(). `iteration` counts from 0 on a level. A term may
   /// first adapt its scale to what it sees; later costs are comparable with the cost returned here.
   virtual QuadraticModel linearise(int iteration) = 0;
+
+  /// Covariance of the gradient at the pose of the last evaluate(), from how blocks of the image
+  /// disagree (see RobustSum::scoreCovariance), and how many blocks there are. 0: not known, the
+  /// Hessian has to stand for it.
+  virtual int gradientCovariance(Matrix6& covariance) const {
+    covariance.setZero();
+    return 0;
+  }
 };
 
 }  // namespace mivo

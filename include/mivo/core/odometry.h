@@ -57,8 +57,8 @@ class Odometry {
   const TrackingResult& result() const;  ///< of the last frame
 
   bool hasKeyframe() const;
-  Eigen::Isometry3d keyframePose() const;         ///< T_odom_keyframe
-  cv::Mat keyframeImage() const;                  ///< CV_8UC1, a copy
+  Eigen::Isometry3d keyframePose() const;         ///< T_odom_keyframe; identity without one
+  cv::Mat keyframeImage() const;                  ///< CV_8UC1, a copy; empty without one
   std::vector<CloudPoint> keyframeCloud() const;  ///< every second pixel with depth
 
   /// Difference live - keyframe at every second pixel with depth, at the last pose, seen in the

@@ -31,6 +31,7 @@ struct AlignmentTask {
 struct Alignment {
   Eigen::Isometry3d T_live_ref = Eigen::Isometry3d::Identity();
   Matrix6 information = Matrix6::Identity();  ///< of the increment at T_live_ref, nats
+  Matrix6 covariance = Matrix6::Identity();   ///< of the increment's error
   double condition = 0.0;           ///< weakest over strongest curvature on the finest level
   int points = 0;                   ///< in view on the finest level
   double overlap = 0.0;             ///< fraction of the finest level's points in view

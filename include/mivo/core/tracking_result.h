@@ -65,8 +65,9 @@ struct TrackingResult {
   Eigen::Isometry3d T_odom_camera = Eigen::Isometry3d::Identity();
 
   /// Covariance of the pose's error (translation m, rotation rad) in the axes of the camera:
-  /// T_true = T_odom_camera * retract(error). Symmetric and positive definite. It is that of the
-  /// alignment with the keyframe; the keyframe's own error is not in it.
+  /// T_true = T_odom_camera * retract(error). Symmetric and positive definite. It grows from
+  /// keyframe to keyframe: it is that of the alignment and that of the keyframe together. Of the
+  /// first frame, true by definition, it is next to nothing; of a guess, a metre and a radian.
   Matrix6 covariance = Matrix6::Identity();
 
   /// Velocity of the camera in its own axes: m/s and rad/s; zero until two poses are known.
@@ -75,9 +76,11 @@ struct TrackingResult {
   int keyframe = 0;  ///< number of the keyframe the frame was tracked against, from 1; 0: none
   bool new_keyframe = false;  ///< this frame became a keyframe
   int keyframes = 0;          ///< made so far
-  int segment = 0;            ///< grows when tracking starts anew at a guessed pose
-  int points = 0;             ///< used on the finest level
-  double overlap = 0.0;       ///< fraction of the keyframe's points in view, 0..1
+  /// Grows when tracking starts anew at a guessed pose; poses of one segment are connected by
+  /// measurements. A camera that is found again by an older keyframe is back in its segment.
+  int segment = 0;
+  int points = 0;        ///< used on the finest level
+  double overlap = 0.0;  ///< fraction of the keyframe's points in view, 0..1
   double mutual_information =
       0.0;                      ///< nats, with the keyframe, on the finest MI level (or 0: none)
   double residual_scale = 0.0;  ///< grey levels, robust, on the finest SSD level (or 0: none)
