@@ -189,14 +189,12 @@ void chooseInTurn(std::size_t wanted, Workspace& work) {
   }
 }
 
-/// Puts each part into reading order: what lies side by side in the live depth image is read there
-/// one after the other.
-void sortParts(std::size_t first_part, std::vector<Patch>& chosen) {
-  const auto middle =
+/// Puts the first part into reading order: what lies side by side in the live depth image is read
+/// there one after the other.
+void sortFirstPart(std::size_t first_part, std::vector<Patch>& chosen) {
+  const auto end =
       chosen.begin() + static_cast<std::ptrdiff_t>(std::min(first_part, chosen.size()));
-  const auto isBefore = [](const Patch& a, const Patch& b) { return a.place < b.place; };
-  std::sort(chosen.begin(), middle, isBefore);
-  std::sort(middle, chosen.end(), isBefore);
+  std::sort(chosen.begin(), end, [](const Patch& a, const Patch& b) { return a.place < b.place; });
 }
 
 /// Planar patches over the image, by the direction of their normals.
@@ -239,7 +237,7 @@ void makeGeometricPoints(const cv::Mat& depth, const Camera& camera, const RowMo
   Recycled<Workspace> work;
   findPatches(depth, camera, rows, *work);
   chooseInTurn(static_cast<std::size_t>(max_points), *work);
-  sortParts(static_cast<std::size_t>(first_part), work->chosen);
+  sortFirstPart(static_cast<std::size_t>(first_part), work->chosen);
   const std::vector<Patch>& chosen = work->chosen;
   for (std::vector<float>* array :
        {&points.x, &points.y, &points.z, &points.nx, &points.ny, &points.nz, &points.weight}) {

@@ -28,7 +28,7 @@ struct GeometricPoints {
 };
 
 /// Fits planes to patches of a depth image and picks points of them. The first `first_part` points
-/// alone cover all directions, too; these and the others are in reading order each.
+/// alone cover all directions, too, and are in reading order.
 /// @param depth CV_32FC1 metres, 0 for none; @param camera and @param rows of the same level.
 void makeGeometricPoints(const cv::Mat& depth, const Camera& camera, const RowMotion& rows,
                          int first_part, int max_points, GeometricPoints& points);
