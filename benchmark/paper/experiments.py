@@ -15,19 +15,21 @@ FOLDERS = ["convergence", "levels", "optimiser", "pictures", "runs", "sequences"
 class Experiments:
     """All jobs of a plan, and the paths of what they leave behind."""
 
-    def __init__(self, plan, programs, recordings):
+    def __init__(self, plan, programs, recordings, paper_only=False):
         self.plan = plan
         self.programs = programs
-        self.recordings = recordings  # name: folder
+        self.paper_only = paper_only
+        self.recordings = {} if paper_only else recordings  # name: folder
         self.jobs = []
         self.film_jobs = {}
-        self.variants = plans.variants()
+        self.variants = plans.PAPER_METHODS if paper_only else plans.variants()
         self.has_peers = os.path.exists(self.program("run_peer"))
         self.has_optimisers = os.path.exists(self.program("optimiser_experiment"))
         for key in plan.sequences:
-            self.film(key)
+            if not paper_only or key not in plan.beyond or key in (plan.basin, plan.basin_relit):
+                self.film(key)
+        self.add_convergence()  # the longest jobs, so that none is left over at the end
         self.add_runs()
-        self.add_convergence()
         self.add_optimisers()
         self.add_level_times()
         self.add_pictures()
@@ -68,6 +70,8 @@ class Experiments:
             self.track("moving", self.plan.ideal, method)
             for key in static:
                 self.track("first", key, method, FIRST)
+        if self.paper_only:
+            return
         for key in self.plan.beyond + sorted(self.recordings):
             for method in self.variants:
                 self.track("drift", key, method)
@@ -113,7 +117,7 @@ class Experiments:
         words = self.pair_words(self.plan.magnitudes, self.plan.trials)
         program = self.program("convergence_experiment")
         for relit, methods in ((False, plans.CONVERGENCE_METHODS), (True, plans.RELIT_METHODS)):
-            for method in methods:
+            for method in reversed(methods):
                 path = self.convergence_path(method.key, relit)
                 command = [program, self.sequence(self.plan.basin), "--output", path]
                 after = self.after(self.plan.basin)
@@ -139,14 +143,16 @@ class Experiments:
         return os.path.join("optimiser", name + ".csv")
 
     def add_level_times(self):
-        for method in plans.PAPER_METHODS:
-            command = [self.program("level_times"), self.sequence(self.plan.basin)]
-            path = self.level_path(method)
-            self.add(path, [command + method.words() + [">", path]],
-                     after=self.after(self.plan.basin), alone=True)
+        """Table I by the means of the speed benchmark. The runs take turns, as there."""
+        for repetition in range(self.plan.repetitions):
+            for method, words in plans.measure.METHODS.items():
+                path = self.level_path(method, repetition)
+                command = [self.program("run_sequence"), self.sequence(self.plan.basin), "--output",
+                           path + ".txt", "--statistics", path + ".csv", "--force", "--threads", "1"]
+                self.add(path, [command + list(words)], after=self.after(self.plan.basin), alone=True)
 
-    def level_path(self, method):
-        return os.path.join("levels", method.key + ".csv")
+    def level_path(self, method, repetition):
+        return os.path.join("levels", "%s-%d" % (method, repetition))
 
     # ---- Pictures
 

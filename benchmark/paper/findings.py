@@ -78,8 +78,7 @@ def static_light(results, case, kind, start):
 
 
 def speed(results):
-    total = {method.key: results.level_times(method)["all"]["ms_mean"]
-             for method in plans.PAPER_METHODS}
+    total = {method.key: results.tracking_time(method) for method in plans.PAPER_METHODS}
     evidence = "all levels: " + ", ".join("%s %.2f ms" % (method.title, total[method.key])
                                           for method in plans.PAPER_METHODS)
     close = total["hybrid"] - total["ssd"] < total["mi"] - total["hybrid"]

@@ -159,18 +159,18 @@ def optimisers(results, path):
     save(figure, path)
 
 
-def levels(times, path):
-    """Table I as bars; `times` is {method: {level: row}}."""
+def levels(rows, path):
+    """Table I as bars; `rows` is {method: statistics of its frames}."""
     figure, axes = plt.subplots(figsize=(7, 3))
-    names = [name for name in times["mi"] if name != "all"]
+    names = list(reversed(plans.measure.LEVELS))
     places = np.arange(len(names))
-    width = 0.8 / len(times)
+    width = 0.8 / len(rows)
     for i, (method, hatch) in enumerate(zip(plans.PAPER_METHODS, ("", "////", "....", "xx"))):
-        rows = [times[method.key][name] for name in names]
-        axes.bar(places + i * width, [row["ms_mean"] for row in rows], width, label=method.title,
-                 color=str(0.3 + 0.2 * i), hatch=hatch, edgecolor="black")
+        times = [np.mean([row["ms_%d" % name] for row in rows[method.key]]) for name in names]
+        axes.bar(places + i * width, times, width, label=method.title, color=str(0.3 + 0.2 * i),
+                 hatch=hatch, edgecolor="black")
     axes.set_xticks(places + 0.4 - width / 2)
-    axes.set_xticklabels(["level " + name for name in names])
+    axes.set_xticklabels(["level %d" % name for name in names])
     axes.set_ylabel("processor time per frame (ms)")
     axes.legend(fontsize=8)
     save(figure, path)

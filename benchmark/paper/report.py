@@ -12,6 +12,7 @@ import findings
 import paper_numbers
 import plan as plans
 import plots
+import tables
 from jobs import JobError
 
 PICTURES = "results"
@@ -84,8 +85,9 @@ class Report:
         self.table_2_section()
         self.static_section()
         self.blur_section()
-        self.beyond_section()
-        self.recording_section()
+        if not self.results.experiments.paper_only:
+            self.beyond_section()
+            self.recording_section()
         self.sequence_section()
         path = os.path.join(self.folder, "results.md")
         with open(path, "w", encoding="utf-8") as output:
@@ -106,8 +108,9 @@ class Report:
             "# The paper's experiments",
             "Section IV of K. S. Shankar and N. Michael, *Robust Direct Visual Odometry using Mutual "
             "Information*, 2016, on sequences that mivo films itself, by the tracker that the nodelet "
-            "runs. This page is written by", "    scripts/reproduce_paper%s" % (
-                " --quick" if plan.quick else ""),
+            "runs. This page is written by", "    scripts/reproduce_paper%s%s" % (
+                " --quick" if plan.quick else "",
+                " --paper-only" if self.results.experiments.paper_only else ""),
             "on %s (%d cores), %s, %s, in %.0f minutes of processor time. Sequences have %d frames at 30 Hz%s; their options and "
             "seeds stand at the end. The paper's sequences are recordings of a real camera and of "
             "another synthetic room: its numbers are printed beside ours to compare the order of "
@@ -191,25 +194,15 @@ class Report:
                     self.results)
 
     def level_section(self):
-        times = {method.key: self.results.level_times(method) for method in plans.PAPER_METHODS}
-        rows = []
-        for level in times["mi"]:
-            row = [level]
-            for method in plans.PAPER_METHODS:
-                figures = times[method.key][level]
-                row.append("%s ± %s (%s)" % (number(figures["ms_mean"]),
-                                             number(figures["ms_deviation"]),
-                                             number(figures["line_search_ms_mean"])))
-            ssd, mi, hybrid = paper_numbers.TABLE_1.get(level, ("", "", ""))
-            rows.append(row + [mi, ssd, hybrid])
+        measured = self.results.level_times()
+        rows = [[level] + list(times) for level, times in paper_numbers.TABLE_1.items()]
         self.add("## Time per level (Table I)",
                  "Milliseconds of processor time of one thread per frame on `%s`, mean ± standard "
-                 "deviation, and what of it was spent in line searches; without the images' pyramids "
-                 "and new keyframes. The paper's times are of a desktop i7 at 640 x 480." %
-                 self.plan.basin,
-                 table(["level"] + [method.title for method in plans.PAPER_METHODS]
-                       + ["paper: MI", "SSD", "hybrid"], rows))
-        self.figure("levels.png", "Time per level", plots.levels, times)
+                 "deviation, as the speed benchmark takes them: without the images' pyramids and new "
+                 "keyframes." % self.plan.basin, tables.level_table(measured),
+                 "The paper's, on a desktop i7 at 640 x 480:",
+                 table(["level", "SSD", "MI", "hybrid"], rows))
+        self.figure("levels.png", "Time per level", plots.levels, measured["rows"])
 
     def table_2_section(self):
         names = {"constant": "nominal", "oscillating": "varying light"}
@@ -321,8 +314,8 @@ class Report:
                  "Twists: seed %d; disturbed starts: seed 1. The options of `generate_sequence`:" %
                  plan.seed,
                  table(("sequence", "options"),
-                       [(key, "`%s`" % " ".join(sequence.words))
-                        for key, sequence in plan.sequences.items()]))
+                       [(key, "`%s`" % " ".join(plan.sequences[key].words))
+                        for key in self.results.experiments.film_jobs]))
 
 
 def remarks(section):

@@ -12,7 +12,7 @@ from report import Report
 from results import Results
 
 NEEDED = ("generate_sequence", "run_sequence", "evaluate_trajectory", "pose_errors",
-          "convergence_experiment", "level_times", "tracking_pictures")
+          "convergence_experiment", "tracking_pictures")
 
 
 def arguments():
@@ -23,6 +23,8 @@ def arguments():
                     "more after an interruption. Recordings in $MIVO_DATA are tracked, too.")
     parser.add_argument("--quick", action="store_true",
                         help="small and few frames: whether it works, not what is true")
+    parser.add_argument("--paper-only", action="store_true",
+                        help="without other variants, OpenCV's odometries and recordings")
     parser.add_argument("--build", default=os.path.join(plans.ROOT, "build"), metavar="FOLDER",
                         help="build with MIVO_WITH_BENCHMARKS (default: build)")
     parser.add_argument("--output", metavar="FOLDER",
@@ -65,7 +67,8 @@ def run(options):
     output = options.output or os.path.join(plans.ROOT, "paper_output",
                                             "quick" if options.quick else "full")
     document = options.document or (output if options.quick else os.path.join(plans.ROOT, "doc"))
-    experiments = Experiments(plan, find_programs(options.build), find_recordings())
+    experiments = Experiments(plan, find_programs(options.build), find_recordings(),
+                              options.paper_only)
     folder = Folder(os.path.abspath(output))
     for name in FOLDERS:
         os.makedirs(folder.file(name), exist_ok=True)

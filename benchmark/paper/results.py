@@ -7,7 +7,9 @@ import math
 
 import numpy as np
 
-import plan as plans
+import plan as plans  # finds the modules of the speed benchmark
+import measure
+import programs
 
 
 def read_rows(path):
@@ -104,12 +106,20 @@ class Results:
             trials.setdefault(row["magnitude"], []).append(row)
         return trials
 
-    def level_times(self, method):
-        """Level as text, "all" last: its row."""
-        path = self.folder.file(self.experiments.level_path(method))
-        with open(path, encoding="utf-8") as rows:
-            return {row.pop("level"): {name: float(value) for name, value in row.items()}
-                    for row in csv.DictReader(rows)}
+    def level_times(self):
+        """What the speed benchmark makes its Table I of, the first frame left out as there."""
+        rows = {}
+        for method in measure.METHODS:
+            paths = [self.folder.file(self.experiments.level_path(method, repetition) + ".csv")
+                     for repetition in range(self.experiments.plan.repetitions)]
+            rows[method] = measure.by_frame([programs.read_rows(path)[1:] for path in paths])
+        return {"rows": rows}
+
+    def tracking_time(self, method):
+        """Mean over the frames of the time on all levels, ms."""
+        rows = self.level_times()["rows"][method.key]
+        return float(np.mean([sum(row["ms_%d" % level] for level in measure.LEVELS)
+                              for row in rows]))
 
     def picture(self, name, image):
         return self.folder.file(self.experiments.picture_path(name, image))

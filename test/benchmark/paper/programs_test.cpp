@@ -144,22 +144,6 @@ TEST_F(ExperimentTest, EveryOptimiserStaysAtTheTruth) {
 }
 #endif
 
-TEST_F(ExperimentTest, TimesOfTheLevelsAddUp) {
-  const ProcessResult result = run("level_times", {sequence(), "--set", "levels=3"});
-  ASSERT_EQ(result.exit_code, 0) << result.errors;
-  EXPECT_NE(result.output.find("\nall,"), std::string::npos);
-  std::string text = result.output;
-  text.replace(text.find("\nall,"), 5, "\n-1,");  // a number like the others
-  const auto rows = rowsOf(text);
-  ASSERT_EQ(rows.size(), 4U);
-  for (const std::size_t column : {std::size_t{1}, std::size_t{3}, std::size_t{5}}) {
-    const double sum = rows[0][column] + rows[1][column] + rows[2][column];
-    EXPECT_NEAR(sum, rows[3][column], 1e-4) << column;
-    EXPECT_GT(sum, 0.0) << column;
-  }
-  for (const auto& row : rows) EXPECT_LE(row[3], row[1]);  // the line search is part of a level
-}
-
 TEST_F(ExperimentTest, RefusesWhatMakesNoSense) {
   expectRefusal(run("convergence_experiment", {sequence(), "--magnitude", "1"}), 2, "--output");
   expectRefusal(run("convergence_experiment",
