@@ -63,6 +63,20 @@ float medianMagnitude(const Residuals& residuals) {
   return *middle;
 }
 
+/// Largest of numbers that are not negative, 0 of none. Eight at a time: one after the other each
+/// comparison would wait for the last.
+float largest(const std::vector<float>& values) {
+  constexpr std::size_t kTogether = 8;
+  std::array<float, kTogether> maxima{};
+  std::size_t i = 0;
+  for (; i + kTogether <= values.size(); i += kTogether) {
+    for (std::size_t k = 0; k < kTogether; ++k) maxima[k] = std::max(maxima[k], values[i + k]);
+  }
+  float result = *std::max_element(maxima.begin(), maxima.end());
+  for (; i < values.size(); ++i) result = std::max(result, values[i]);
+  return result;
+}
+
 /// The residual of the warped keyframe is r(d) = r - J d: the gradient is minus the sum of J r.
 QuadraticModel toModel(const std::vector<kernels::LeastSquaresSums>& parts, double factor) {
   QuadraticModel model;
@@ -119,19 +133,15 @@ int RobustSum::scoreCovariance(const Residuals& residuals,
   covariance.setZero();
   if (residuals.num_visible == 0 || scale_ == 0.0) return 0;
   const std::size_t n = residuals.value.size();
-  const auto last = [&](const std::vector<float>& x) {
-    return static_cast<std::size_t>(static_cast<double>(*std::max_element(x.begin(), x.end())) /
-                                    block);
-  };
-  const std::size_t columns = last(u) + 1;
+  const auto per_pixel = static_cast<float>(1.0 / block);
+  const auto blockOf = [=](float pixel) { return static_cast<std::size_t>(pixel * per_pixel); };
+  const std::size_t columns = blockOf(largest(u)) + 1;
   Recycled<std::vector<Block>> blocks;
-  blocks->assign(columns * (last(v) + 1), Block{});
+  blocks->assign(columns * (blockOf(largest(v)) + 1), Block{});
   const auto inverse_scale = static_cast<float>(1.0 / scale_);
   for (std::size_t i = 0; i < n; ++i) {
     if (residuals.visible[i] == 0.0F) continue;
-    const auto column = static_cast<std::size_t>(static_cast<double>(u[i]) / block);
-    const auto row = static_cast<std::size_t>(static_cast<double>(v[i]) / block);
-    Block& here = (*blocks)[row * columns + column];
+    Block& here = (*blocks)[blockOf(v[i]) * columns + blockOf(u[i])];
     const float scaled = residuals.value[i] * inverse_scale;
     const float influence = robustLoss(kind_, scaled).weight * scaled * inverse_scale;
     for (std::size_t k = 0; k < 6; ++k) {
