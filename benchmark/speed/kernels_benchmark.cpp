@@ -89,13 +89,12 @@ void addInformation(KernelInputs& in, const mivo::kernels::Backend& backend) {
     const auto jacobians = in.jacobians();
     const float* second[21];
     for (std::size_t i = 0; i < 21; ++i) second[i] = in.second_derivative[i].data();
-    static std::vector<float> rows;
-    rows.assign(KernelInputs::kSide * KernelInputs::kSide * mivo::kernels::kRowFloats, 0.0F);
+    alignas(
+        64) float rows[KernelInputs::kSide * KernelInputs::kSide * mivo::kernels::kRowFloats] = {};
     mivo::kernels::InformationSums sums{};
     k.informationDerivatives(in.referenceBins(), in.liveBins(), in.ones.data(),
                              in.jacobian_rows.data(), jacobians.data(), second, in.size,
-                             KernelInputs::kSide, 7.0F / 200.0F, in.log_ratio.data(), rows.data(),
-                             sums);
+                             KernelInputs::kSide, 7.0F / 200.0F, in.log_ratio.data(), rows, sums);
     benchmark::DoNotOptimize(sums);
   });
 }
