@@ -128,7 +128,9 @@ class Report:
         rows = [(found.claim, "**%s**" % found.verdict, found.evidence)
                 for found in findings.all_findings(self.results)]
         self.add("## What the paper finds, and whether it holds here",
-                 table(("finding", "here", "evidence"), rows), remarks("findings"))
+                 table(("finding", "here", "evidence"), rows))
+        if not self.plan.quick:  # they are about the numbers of the full run
+            self.add(remarks("findings"))
 
     def ideal_section(self):
         key = self.plan.ideal
@@ -278,8 +280,9 @@ class Report:
                  "unless the title says rows. Median processor time per frame, measured beside other "
                  "work: to compare within the table only. OpenCV's odometries run frame to frame.",
                  self.drift_table(self.plan.beyond,
-                                  [self.plan.sequences[key].title for key in self.plan.beyond]),
-                 remarks("beyond"))
+                                  [self.plan.sequences[key].title for key in self.plan.beyond]))
+        if not self.plan.quick:
+            self.add(remarks("beyond"))
         self.add("### Tables II and III for all of them",
                  "Mean error, mm / mrad, lost frames in brackets; the static camera from a start 5 mm and "
                  "5 mrad away.", self.variant_table())
