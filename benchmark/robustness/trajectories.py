@@ -1,0 +1,78 @@
+# SPDX-License-Identifier: BSD-3-Clause
+"""Trajectories and statistics as mivo's programs write them, and errors between poses."""
+
+import csv
+
+import numpy as np
+
+
+def matrix(position, quaternion):
+    """4x4 pose of a position (m) and a quaternion (x, y, z, w)."""
+    x, y, z, w = quaternion / np.linalg.norm(quaternion)
+    pose = np.eye(4)
+    pose[:3, :3] = [[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+                    [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+                    [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]]
+    pose[:3, 3] = position
+    return pose
+
+
+def read_trajectory(path):
+    """Stamps (n) and poses (n, 4, 4) of a trajectory file."""
+    rows = np.loadtxt(path, comments="#", ndmin=2)
+    return rows[:, 0], np.array([matrix(row[1:4], row[4:8]) for row in rows])
+
+
+def read_statistics(path):
+    """The rows of a statistics file as dictionaries of words."""
+    with open(path, encoding="utf-8") as file:
+        return list(csv.DictReader(file))
+
+
+def poses_at(stamps, truth_stamps, truth_poses, tolerance=0.02):
+    """The true pose nearest to each stamp, and which of them are within the tolerance (s)."""
+    right = np.clip(np.searchsorted(truth_stamps, stamps), 1, len(truth_stamps) - 1)
+    left = right - 1
+    nearer_left = np.abs(truth_stamps[left] - stamps) < np.abs(truth_stamps[right] - stamps)
+    index = np.where(nearer_left, left, right)
+    return truth_poses[index], np.abs(truth_stamps[index] - stamps) <= tolerance
+
+
+def size(pose):
+    """Length (m) and angle (rad) of a pose."""
+    cosine = np.clip(0.5 * (np.trace(pose[:3, :3]) - 1.0), -1.0, 1.0)
+    sine = 0.5 * np.linalg.norm([pose[2, 1] - pose[1, 2], pose[0, 2] - pose[2, 0],
+                                 pose[1, 0] - pose[0, 1]])
+    return np.linalg.norm(pose[:3, 3]), np.arctan2(sine, cosine)
+
+
+def log_so3(rotation):
+    """Rotation vector of a rotation matrix."""
+    axis = np.array([rotation[2, 1] - rotation[1, 2], rotation[0, 2] - rotation[2, 0],
+                     rotation[1, 0] - rotation[0, 1]])
+    sine = 0.5 * np.linalg.norm(axis)
+    angle = np.arctan2(sine, np.clip(0.5 * (np.trace(rotation) - 1.0), -1.0, 1.0))
+    return 0.5 * axis if sine < 1e-12 else axis * (0.5 * angle / sine)
+
+
+def covariance_of(row):
+    """6x6 covariance of a row of statistics."""
+    covariance = np.empty((6, 6))
+    for i in range(6):
+        for j in range(i, 6):
+            covariance[i, j] = covariance[j, i] = float(row[f"covariance_{i}{j}"])
+    return covariance
+
+
+def normalised_error(estimate, truth, covariance):
+    """Squared error of a pose over its covariance (NEES); 6 in the mean for an honest one."""
+    error = np.linalg.inv(estimate) @ truth
+    vector = np.concatenate([error[:3, 3], log_so3(error[:3, :3])])
+    return vector @ np.linalg.solve(covariance, vector)
+
+
+def difference(estimate_a, estimate_b, truth_a, truth_b):
+    """Error of the motion from a to b: length (m), angle (rad)."""
+    estimated = np.linalg.inv(estimate_a) @ estimate_b
+    true = np.linalg.inv(truth_a) @ truth_b
+    return size(np.linalg.inv(true) @ estimated)
