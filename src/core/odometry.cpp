@@ -82,6 +82,7 @@ class Odometry::Implementation {
   double pose_stamp_ = 0.0;
   double last_stamp_ = 0.0;
   bool has_stamp_ = false;
+  bool is_pose_given_ = true;  // the next keyframe's pose is the user's, not a guess
   int num_keyframes_ = 0;
   int segment_ = 0;       // of the last pose
   int num_segments_ = 1;  // so far
@@ -95,6 +96,7 @@ void Odometry::Implementation::startResult(const Frame& frame) {
   result_.state = last.state;
   result_.T_odom_camera = last.T_odom_camera;
   result_.covariance = last.covariance;
+  result_.alignment_covariance = last.alignment_covariance;
   result_.keyframe = keyframes_.isEmpty() ? 0 : keyframes_.current().number;
   result_.keyframes = num_keyframes_;
   result_.segment = segment_;
@@ -138,15 +140,17 @@ void Odometry::Implementation::process(const Frame& frame, const Eigen::Isometry
 
 void Odometry::Implementation::startFirstKeyframe(const Frame& frame,
                                                   const Eigen::Isometry3d& T_odom_camera_start) {
-  // The first pose is true by definition; later ones without a keyframe are predicted.
-  const Matrix6 covariance = num_keyframes_ == 0 ? floorCovariance() : guessCovariance();
+  // A pose that was given is true by definition; later ones without a keyframe are predicted.
+  const Matrix6 covariance = is_pose_given_ ? floorCovariance() : guessCovariance();
+  result_.alignment_covariance = covariance;
   result_.T_odom_camera = T_odom_camera_start;
   if (!makeKeyframe(T_odom_camera_start, Vector6::Zero(), covariance)) {
     result_.state = TrackingState::kInitialising;
     result_.reason = TrackingReason::kTooFewPoints;
-    result_.covariance = guessCovariance();
+    result_.covariance = result_.alignment_covariance = guessCovariance();
     return;
   }
+  is_pose_given_ = false;
   result_.state = TrackingState::kTracking;
   T_odom_camera_ = T_odom_camera_start;
   result_.covariance = covariance;
@@ -275,6 +279,8 @@ void Odometry::Implementation::accept(const Frame& frame, const Alignment& align
   // Held against a keyframe whose own velocity is not known, a frame says nothing about the rows.
   if (!keyframe.keyframe.twistPerPeriod().isZero(0.0)) readout_.add(alignment.readout);
   result_.T_odom_camera = T_odom_camera_;
+  result_.alignment_covariance =
+      liveCovariance(alignment.T_live_ref, alignment.covariance, Matrix6::Zero());
   result_.covariance =
       liveCovariance(alignment.T_live_ref, alignment.covariance, keyframe.covariance);
   result_.velocity = motion_.velocity(parameters_);
@@ -304,7 +310,7 @@ void Odometry::Implementation::lose(const Frame& frame, const Eigen::Isometry3d&
   result_.reason = reason;
   // One frame may be bridged by its velocity; after that the last good pose is the best guess.
   result_.T_odom_camera = lost_in_a_row_ == 1 ? guess : T_odom_camera_;
-  result_.covariance = guessCovariance();
+  result_.covariance = result_.alignment_covariance = guessCovariance();
   const int patience = parameters_.lost_frames * (is_blind ? kPatienceInTheDark : 1);
   if (lost_in_a_row_ < patience || live_.contrastInView() < kMinContrast ||
       parameters_.keyframe_policy == KeyframePolicy::kFirst) {
@@ -367,6 +373,7 @@ void Odometry::Implementation::reset(const Eigen::Isometry3d& T_odom_camera) {
   has_stamp_ = false;
   motion_ = MotionModel();
   lost_in_a_row_ = 0;
+  is_pose_given_ = true;
   T_odom_camera_ = orthonormalised(T_odom_camera);
   result_ = TrackingResult{};
   result_.T_odom_camera = T_odom_camera_;

@@ -218,7 +218,9 @@ void run(int argc, char** argv) {
   addDepthOptions(line, request);
   if (!line.parse(argc, argv)) return;
   const mivo::GeneratorOptions options = generatorOptions(request, line);
-  if (request.threads > 0) cv::setNumThreads(request.threads);
+  if (request.threads > 0) {
+    cv::setNumThreads(std::min(request.threads, cv::getNumberOfCPUs()));
+  }
 
   const mivo::Overwrite overwrite = request.force ? mivo::Overwrite::kYes : mivo::Overwrite::kNo;
   std::unique_ptr<mivo::SequenceGenerator> generator;

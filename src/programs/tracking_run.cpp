@@ -48,7 +48,8 @@ const TrackingResult& process(Odometry& odometry, const Frame& frame,
 }  // namespace
 
 TrackingSummary trackFrames(FrameSource& source, const TrackingOptions& options) {
-  cv::setNumThreads(options.parameters.threads);
+  // OpenCV warns of more threads than there are processors; the result is the same.
+  cv::setNumThreads(std::min(options.parameters.threads, cv::getNumberOfCPUs()));
   const Overwrite overwrite = options.force ? Overwrite::kYes : Overwrite::kNo;
   Odometry odometry(source.camera(), options.parameters);
   if (!options.statistics.empty()) refuseExisting(options.statistics, overwrite);

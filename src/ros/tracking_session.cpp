@@ -54,8 +54,9 @@ const TrackingResult& TrackingSession::process(const Frame& frame, const Eigen::
   const bool measured = continued && before.segment == result_.segment &&
                         before.state != TrackingState::kLost &&
                         before.state != TrackingState::kInitialising;
-  twist_covariance_ = mivo::twistCovariance(before.covariance, result_.covariance,
-                                            measured ? result_.stamp - before.stamp : 0.0);
+  twist_covariance_ =
+      mivo::twistCovariance(before.alignment_covariance, result_.alignment_covariance,
+                            measured ? result_.stamp - before.stamp : 0.0);
   return result_;
 }
 

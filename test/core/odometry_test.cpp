@@ -278,6 +278,24 @@ TEST(OdometryTest, CovarianceIsAboutTheSpreadOfTheErrors) {
   }
 }
 
+TEST(OdometryTest, TheCovarianceGrowsFromKeyframeToKeyframeUntilThePoseIsGiven) {
+  Parameters parameters;
+  parameters.keyframe_rotation = 0.01;  // often
+  Odometry odometry(walk().camera, parameters);
+  double last = 0.0;
+  for (std::size_t i = 0; i < 8; ++i) {
+    const TrackingResult& result = odometry.process(walk().frames[i]);
+    if (!result.new_keyframe) continue;
+    EXPECT_GT(result.covariance.trace(), last);
+    last = result.covariance.trace();
+    EXPECT_LE(result.alignment_covariance.trace(), result.covariance.trace());
+  }
+  EXPECT_GT(odometry.result().keyframes, 2);
+  odometry.reset();
+  odometry.process(walk().frames[8]);
+  EXPECT_LT(odometry.result().covariance.trace(), 1e-8);
+}
+
 TEST(OdometryTest, ParametersTakeEffectWithTheNextFrameOrNotAtAll) {
   Odometry odometry(walk().camera, {});
   for (std::size_t i = 0; i < 3; ++i) odometry.process(walk().frames[i]);

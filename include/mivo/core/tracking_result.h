@@ -70,6 +70,10 @@ struct TrackingResult {
   /// first frame, true by definition, it is next to nothing; of a guess, a metre and a radian.
   Matrix6 covariance = Matrix6::Identity();
 
+  /// The same of the alignment alone, with the keyframe's pose taken as true: what motion between
+  /// frames of one keyframe is to be judged by.
+  Matrix6 alignment_covariance = Matrix6::Identity();
+
   /// Velocity of the camera in its own axes: m/s and rad/s; zero until two poses are known.
   Vector6 velocity = Vector6::Zero();
 
