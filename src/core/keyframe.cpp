@@ -54,19 +54,34 @@ void leaveOutSaturated(const cv::Mat& image, double saturation, std::vector<Pixe
 void Keyframe::build(const FramePyramid& frame, const Camera& camera,
                      const Vector6& twist_per_period, const ShutterTimes& shutter,
                      const Parameters& parameters) {
+  choosePoints(frame, twist_per_period, shutter, parameters);
+  finish(frame, camera, parameters);
+}
+
+void Keyframe::choosePoints(const FramePyramid& frame, const Vector6& twist_per_period,
+                            const ShutterTimes& shutter, const Parameters& parameters) {
   twist_per_period_ = twist_per_period;
+  shutter_ = shutter;
   contrast_in_view_ = frame.contrastInView();
-  const RowMotion rows{twist_per_period, shutter.readout, 0.0};
-  const RowMotion depth_rows{twist_per_period, shutter.readout, shutter.depth_offset};
   const int num_levels = frame.numLevels();
   levels_.resize(static_cast<std::size_t>(num_levels));
   frame.frame().image.copyTo(image_);
   depth_pyramid_.build(frame.frame(), num_levels, parameters.min_depth, parameters.max_depth,
                        parameters.depth_edge_ratio);
   for (int l = 0; l < num_levels; ++l) {
-    KeyframeLevel& level = levels_[static_cast<std::size_t>(l)];
-    const cv::Mat& depth = depth_pyramid_.level(l);
+    std::vector<Pixel>& pixels = levels_[static_cast<std::size_t>(l)].points.pixels;
     const bool is_coarsest = l + 1 == num_levels && num_levels > 1;
+    selectPoints(frame.grey(l), depth_pyramid_.level(l), is_coarsest, parameters, pixels);
+    if (frame.isNormalised()) leaveOutSaturated(frame.grey(l), parameters.saturation, pixels);
+  }
+}
+
+void Keyframe::finish(const FramePyramid& frame, const Camera& camera,
+                      const Parameters& parameters) {
+  const RowMotion rows{twist_per_period_, shutter_.readout, 0.0};
+  const RowMotion depth_rows{twist_per_period_, shutter_.readout, shutter_.depth_offset};
+  for (int l = 0; l < numLevels(); ++l) {
+    KeyframeLevel& level = levels_[static_cast<std::size_t>(l)];
     const bool uses_mi = usesMutualInformation(parameters, l);
     // Mutual information compares whole images, normalised beforehand; SSD normalises at its
     // points.
@@ -74,25 +89,21 @@ void Keyframe::build(const FramePyramid& frame, const Camera& camera,
         uses_mi ? frame.informationImage(l) : frame.grey(l),
         !uses_mi && frame.isNormalised() ? &frame.contrast().level(l) : nullptr};
     level.points.level = l;
-    selectPoints(frame.grey(l), depth, is_coarsest, parameters, level.points.pixels);
-    if (frame.isNormalised())
-      leaveOutSaturated(frame.grey(l), parameters.saturation, level.points.pixels);
-    makeReferencePoints(image, {depth, shutter.depth_offset}, camera.atLevel(l), rows, uses_mi,
-                        level.points);
+    makeReferencePoints(image, {depth_pyramid_.level(l), shutter_.depth_offset}, camera.atLevel(l),
+                        rows, uses_mi, level.points);
     if (uses_mi) {
       makeMiReference(level.points, frame.informationRange(l), parameters, level.mi);
     }
   }
   if (!parameters.geometric_term) {
     geometric_points_ = GeometricPoints{};
-  } else {
-    // Level 1 has patches of the right size, 14 pixels of the image; level 0 where there is no
-    // other.
-    const int l = std::min(1, num_levels - 1);
-    makeGeometricPoints(depth_pyramid_.level(l), camera.atLevel(l), depth_rows,
-                        parameters.geometric_points, parameters.geometric_points_dark,
-                        geometric_points_);
+    return;
   }
+  // Level 1 has patches of the right size, 14 pixels of the image; level 0 where there is no other.
+  const int l = std::min(1, numLevels() - 1);
+  makeGeometricPoints(depth_pyramid_.level(l), camera.atLevel(l), depth_rows,
+                      parameters.geometric_points, parameters.geometric_points_dark,
+                      geometric_points_);
 }
 
 }  // namespace mivo

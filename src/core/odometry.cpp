@@ -51,12 +51,14 @@ class Odometry::Implementation {
   Parameters parameters_;
   TrackingResult result_;
   FramePyramid live_;
+  FramePyramid reference_;  // of the newest keyframe, until it is finished
   KeyframeStore keyframes_;
   bool keyframes_are_outdated_ = false;  // a parameter changed that they were made with
 
  private:
   void startResult(const Frame& frame);
   bool isUsable(const Frame& frame);
+  void finishKeyframe();
   void startFirstKeyframe(const Frame& frame, const Eigen::Isometry3d& T_odom_camera_start);
   Alignment alignWith(const PosedKeyframe& keyframe, const Frame& frame,
                       const Eigen::Isometry3d& T_odom_camera_start) const;
@@ -82,7 +84,8 @@ class Odometry::Implementation {
   double pose_stamp_ = 0.0;
   double last_stamp_ = 0.0;
   bool has_stamp_ = false;
-  bool is_pose_given_ = true;  // the next keyframe's pose is the user's, not a guess
+  bool keyframe_is_unfinished_ = false;  // its points are chosen, see finishKeyframe()
+  bool is_pose_given_ = true;            // the next keyframe's pose is the user's, not a guess
   int num_keyframes_ = 0;
   int segment_ = 0;       // of the last pose
   int num_segments_ = 1;  // so far
@@ -116,17 +119,20 @@ void Odometry::Implementation::process(const Frame& frame, const Eigen::Isometry
   last_stamp_ = frame.stamp;
   has_stamp_ = true;
   motion_.addStamp(frame.stamp);
-  live_.build(frame, parameters_);
-  result_.milliseconds.pyramid = threadMilliseconds() - begin;
-
-  const Eigen::Isometry3d T_odom_camera_start =
-      start != nullptr && start->matrix().allFinite() ? *start : predictedPose(frame.stamp);
   if (keyframes_are_outdated_) {
     // Made with other parameters: the frame takes their place before it can be compared.
     keyframes_.clear();
     keyframes_are_outdated_ = false;
+    keyframe_is_unfinished_ = false;
     lost_in_a_row_ = 0;
   }
+  finishKeyframe();
+  const double finished = threadMilliseconds();
+  live_.build(frame, parameters_);
+  result_.milliseconds.pyramid = threadMilliseconds() - finished;
+
+  const Eigen::Isometry3d T_odom_camera_start =
+      start != nullptr && start->matrix().allFinite() ? *start : predictedPose(frame.stamp);
   if (keyframes_.isEmpty()) {
     startFirstKeyframe(frame, T_odom_camera_start);
   } else {
@@ -136,6 +142,16 @@ void Odometry::Implementation::process(const Frame& frame, const Eigen::Isometry
   result_.segment = segment_;
   result_.rolling_shutter_readout = readout() * motion_.period(parameters_);
   result_.milliseconds.total = threadMilliseconds() - begin;
+}
+
+/// The second half of making a keyframe is left to the frame after it.
+void Odometry::Implementation::finishKeyframe() {
+  if (!keyframe_is_unfinished_) return;
+  const double begin = threadMilliseconds();
+  keyframe_is_unfinished_ = false;
+  std::swap(live_, reference_);
+  keyframes_.current().keyframe.finish(reference_, camera_, parameters_);
+  result_.milliseconds.keyframe += threadMilliseconds() - begin;
 }
 
 void Odometry::Implementation::startFirstKeyframe(const Frame& frame,
@@ -352,8 +368,8 @@ bool Odometry::Implementation::makeKeyframe(const Eigen::Isometry3d& T_odom_came
   const double begin = threadMilliseconds();
   readout_.endKeyframe();
   PosedKeyframe& candidate = keyframes_.candidate();
-  candidate.keyframe.build(live_, camera_, twist_per_period, shutter(), parameters_);
-  result_.milliseconds.keyframe = threadMilliseconds() - begin;
+  candidate.keyframe.choosePoints(live_, twist_per_period, shutter(), parameters_);
+  result_.milliseconds.keyframe += threadMilliseconds() - begin;
   if (candidate.keyframe.numPoints() < static_cast<std::size_t>(parameters_.lost_points)) {
     return false;
   }
@@ -361,6 +377,7 @@ bool Odometry::Implementation::makeKeyframe(const Eigen::Isometry3d& T_odom_came
   candidate.covariance = covariance;
   candidate.number = ++num_keyframes_;
   candidate.segment = segment_;
+  keyframe_is_unfinished_ = true;
   keyframes_.promote(static_cast<std::size_t>(parameters_.recovery_keyframes));
   first_quality_ = {};
   result_.new_keyframe = true;
@@ -370,6 +387,7 @@ bool Odometry::Implementation::makeKeyframe(const Eigen::Isometry3d& T_odom_came
 void Odometry::Implementation::reset(const Eigen::Isometry3d& T_odom_camera) {
   if (!keyframes_.isEmpty()) segment_ = num_segments_++;
   keyframes_.clear();
+  keyframe_is_unfinished_ = false;
   has_stamp_ = false;
   motion_ = MotionModel();
   lost_in_a_row_ = 0;

@@ -30,6 +30,12 @@ class Keyframe {
   void build(const FramePyramid& frame, const Camera& camera, const Vector6& twist_per_period,
              const ShutterTimes& shutter, const Parameters& parameters);
 
+  /// The two halves of build(), so that no single frame has to wait for both: choosing the points,
+  /// and computing what depends on them. Between them there are image, depth and number of points.
+  void choosePoints(const FramePyramid& frame, const Vector6& twist_per_period,
+                    const ShutterTimes& shutter, const Parameters& parameters);
+  void finish(const FramePyramid& frame, const Camera& camera, const Parameters& parameters);
+
   /// See FramePyramid::contrastInView().
   double contrastInView() const { return contrast_in_view_; }
 
@@ -55,6 +61,7 @@ class Keyframe {
   cv::Mat image_;
   double contrast_in_view_ = 0.0;
   Vector6 twist_per_period_ = Vector6::Zero();
+  ShutterTimes shutter_;
 };
 
 }  // namespace mivo
