@@ -16,9 +16,12 @@ constexpr double kMaxInformation = 500.0;
 constexpr double kMaxCorrection = 0.5;
 // A keyframe with less than this says nothing.
 constexpr double kMinInformation = 1000.0;
-// On a global shutter a keyframe asks for up to 0.06 either way, on a Kinect for 0.12 and more.
-constexpr double kSwitchOnEach = 0.06;
-constexpr double kSwitchOnMean = 0.1;
+// A rolling shutter of 0.6 asks for 0.1 to 0.4 at first. Moving shadows and clipped images may ask
+// for as much by chance; but when that is believed, the next keyframes ask for at least 0.3 less.
+constexpr double kSwitchOnEach = 0.1;
+constexpr double kSwitchOnMean = 0.15;
+constexpr double kRevoked = -0.25;
+constexpr int kProbation = 3;  // keyframes
 // The pose of each frame absorbs most of the effect, so that a correction is too small by this.
 constexpr double kGain = 4.0;
 constexpr double kFirstLimit = 0.6;
@@ -45,9 +48,17 @@ void ReadoutEstimator::endKeyframe() {
 void ReadoutEstimator::decide(double correction) {
   if (!is_on_) {
     const double mean = 0.5 * (correction + last_correction_);
-    is_on_ = std::min(correction, last_correction_) > kSwitchOnEach && mean > kSwitchOnMean;
+    is_on_ = std::min(correction, last_correction_) > caution_ * kSwitchOnEach &&
+             mean > caution_ * kSwitchOnMean;
     if (is_on_) estimate_ = std::min(kFirstLimit, kGain * mean);
     last_correction_ = correction;
+    keyframes_on_ = 0;
+  } else if (++keyframes_on_ <= kProbation && correction < kRevoked) {
+    // It was chance: back to a global shutter, and harder to convince.
+    is_on_ = false;
+    estimate_ = 0.0;
+    last_correction_ = 0.0;
+    caution_ *= 2.0;
   } else if (std::abs(correction) > kIgnored) {
     const double gain = kGain * std::max(kMinGain, 1.0 / (1.0 + 0.5 * updates_));
     const double step = std::min(std::max(gain * correction, -kStepLimit), kStepLimit);

@@ -54,6 +54,8 @@ class ReadoutEstimator {
   double last_correction_ = 0.0;
   bool is_on_ = false;
   int updates_ = 0;
+  int keyframes_on_ = 0;
+  double caution_ = 1.0;  // factor on what it takes to switch on
   double estimate_ = 0.0;
   double readout_ = 0.0;
 };
