@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "device_address.h"
+#include "frame_sync.h"
 #include "mivo/openni2/device_error.h"
 #include "openni2_library.h"
 #include "video_mode.h"
@@ -82,11 +83,17 @@ class OpenNi2Device::Implementation : private openni::OpenNI::DeviceDisconnected
     }
     running = true;
     has_streamed_ = true;
+    if (can_synchronise_ && running_[0] && running_[1]) {
+      synchronise(handles_->device, true);
+    }
   }
 
   void stop(StreamKind kind) {
     bool& running = running_[static_cast<std::size_t>(kind)];
     if (running) {
+      if (can_synchronise_) {
+        synchronise(handles_->device, false);  // or the other stream waits for this one
+      }
       stream(kind).stop();
       running = false;
     }
@@ -215,12 +222,8 @@ class OpenNi2Device::Implementation : private openni::OpenNI::DeviceDisconnected
   }
 
   void setSynchronisation(const DeviceRequest& request) {
-    if (description_.is_recording) {
-      return;
-    }
-    const openni::Status status = handles_->device.setDepthColorSyncEnabled(request.synchronise);
-    if (request.synchronise &&
-        (status != openni::STATUS_OK || !handles_->device.getDepthColorSyncEnabled())) {
+    can_synchronise_ = request.synchronise && canSynchronise(handles_->device);
+    if (request.synchronise && !can_synchronise_ && !description_.is_recording) {
       note(description_.name +
            " does not expose colour and depth together; they are paired by time alone");
     }
@@ -251,6 +254,7 @@ class OpenNi2Device::Implementation : private openni::OpenNI::DeviceDisconnected
   std::unique_ptr<Handles> handles_ = std::make_unique<Handles>();
   std::array<bool, kStreamKinds> running_{};
   bool has_streamed_ = false;
+  bool can_synchronise_ = false;
   std::atomic<bool> connected_{true};
   DeviceDescription description_;
 };

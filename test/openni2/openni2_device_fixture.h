@@ -68,6 +68,17 @@ class OpenNi2DeviceTest : public VirtualXtionTest {
     return received;
   }
 
+  /// Depth images that were taken with a colour image.
+  static int synchronousPairs(const std::map<StreamKind, std::vector<Received>>& received) {
+    int pairs = 0;
+    for (const Received& color : received.at(StreamKind::kColor)) {
+      for (const Received& depth : received.at(StreamKind::kDepth)) {
+        pairs += color.stamp == depth.stamp ? 1 : 0;
+      }
+    }
+    return pairs;
+  }
+
   static void startBoth(CameraDevice& device) {
     device.start(StreamKind::kColor);
     device.start(StreamKind::kDepth);

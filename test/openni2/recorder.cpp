@@ -2,7 +2,9 @@
 #include "openni2/recorder.h"
 
 #include <OpenNI.h>
+#include <PS1080.h>
 
+#include <cstdint>
 #include <stdexcept>
 
 namespace mivo {
@@ -46,13 +48,14 @@ void recordVirtualXtion(const std::string& path, int images,
   create(color, device, openni::SENSOR_COLOR, openni::PIXEL_FORMAT_RGB888);
   create(depth, device, openni::SENSOR_DEPTH, openni::PIXEL_FORMAT_DEPTH_1_MM);
   check(device.setImageRegistrationMode(openni::IMAGE_REGISTRATION_DEPTH_TO_COLOR), "register");
-  check(device.setDepthColorSyncEnabled(true), "synchronise");
   check(recorder.create(path.c_str()), "create the recording");
   check(recorder.attach(color), "attach colour");
   check(recorder.attach(depth), "attach depth");
   check(recorder.start(), "start the recorder");
   check(color.start(), "start colour");
   check(depth.start(), "start depth");
+  check(device.setProperty<std::uint64_t>(XN_MODULE_PROPERTY_FIRMWARE_FRAME_SYNC, 1),
+        "synchronise");
   on_start();
   openni::VideoStream* streams[] = {&color, &depth};
   for (int i = 0; i < images; ++i) {

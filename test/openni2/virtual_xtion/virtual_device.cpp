@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "virtual_device.h"
 
+#include <PS1080.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -107,6 +109,15 @@ void VirtualDevice::destroyStream(oni::driver::StreamBase* stream) {
 }
 
 OniStatus VirtualDevice::setProperty(int id, const void* data, int size) {
+  if (id == XN_MODULE_PROPERTY_FIRMWARE_FRAME_SYNC) {
+    std::uint64_t on = 0;
+    if (size != static_cast<int>(sizeof(on))) {
+      return ONI_STATUS_BAD_PARAMETER;
+    }
+    std::memcpy(&on, data, sizeof(on));
+    synchronised_ = on != 0;
+    return ONI_STATUS_OK;
+  }
   OniImageRegistrationMode mode{};
   if (id != ONI_DEVICE_PROPERTY_IMAGE_REGISTRATION || size != static_cast<int>(sizeof(mode))) {
     return ONI_STATUS_NOT_SUPPORTED;
@@ -140,7 +151,8 @@ OniStatus VirtualDevice::getProperty(int id, void* data, int* size) {
 }
 
 OniBool VirtualDevice::isPropertySupported(int id) {
-  return id == ONI_DEVICE_PROPERTY_IMAGE_REGISTRATION || id == ONI_DEVICE_PROPERTY_SERIAL_NUMBER
+  return id == ONI_DEVICE_PROPERTY_IMAGE_REGISTRATION || id == ONI_DEVICE_PROPERTY_SERIAL_NUMBER ||
+                 id == XN_MODULE_PROPERTY_FIRMWARE_FRAME_SYNC
              ? TRUE
              : FALSE;
 }

@@ -47,7 +47,8 @@ class VirtualDevice : public oni::driver::DeviceBase {
   OniBool isPropertySupported(int id) override;
   OniBool isImageRegistrationModeSupported(OniImageRegistrationMode mode) override;
 
-  void setSynchronised(bool on) { synchronised_ = on; }
+  /// The camera forgets it when a stream starts or stops.
+  void resetSynchronisation() { synchronised_ = false; }
 
  private:
   struct Delivery {

@@ -7,6 +7,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <mutex>
 #include <string>
@@ -83,16 +84,11 @@ class VirtualDriver : public oni::driver::DriverBase {
 
   void deviceClose(oni::driver::DeviceBase* device) override { delete device; }
 
-  void* enableFrameSync(oni::driver::StreamBase** streams, int count) override {
-    if (count == 0) {
-      return nullptr;
-    }
-    VirtualDevice& device = static_cast<VirtualStream*>(streams[0])->device();
-    device.setSynchronised(true);
-    return &device;
-  }
-  void disableFrameSync(void* device) override {
-    static_cast<VirtualDevice*>(device)->setSynchronised(false);
+  void* enableFrameSync(oni::driver::StreamBase** /*streams*/, int /*count*/) override {
+    // It has just freed, or is about to free, what images that are under way are handed to.
+    std::fputs("virtual_xtion: the SDK's own synchronisation is not safe while images come\n",
+               stderr);
+    std::abort();
   }
 
  private:

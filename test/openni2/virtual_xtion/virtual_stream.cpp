@@ -5,6 +5,8 @@
 #include <cstring>
 #include <opencv2/core.hpp>
 
+#include "virtual_device.h"
+
 namespace virtual_xtion {
 namespace {
 
@@ -48,6 +50,7 @@ VirtualStream::VirtualStream(VirtualDevice& device, OniSensorType sensor, const 
       gain_(kDefaultGain) {}
 
 OniStatus VirtualStream::start() {
+  device_.resetSynchronisation();
   const std::lock_guard<std::mutex> lock(mutex_);
   running_ = true;
   delivered_ = false;
@@ -60,6 +63,7 @@ OniStatus VirtualStream::start() {
 }
 
 void VirtualStream::stop() {
+  device_.resetSynchronisation();
   const std::lock_guard<std::mutex> delivery(delivery_);
   const std::lock_guard<std::mutex> lock(mutex_);
   running_ = false;
