@@ -3,8 +3,9 @@
 
 import os
 
-import plan as plans
-from jobs import Job
+import plan as plans  # finds the modules of measuring
+from measuring.jobs import Job
+from measuring.methods import TIMED
 
 FIRST = ["--reference", "first"]
 FIRST_SETTINGS = ["--set", "keyframe_policy=first", "--set", "motion_model=constant_pose"]
@@ -23,8 +24,8 @@ class Experiments:
         self.jobs = []
         self.film_jobs = {}
         self.variants = plans.PAPER_METHODS if paper_only else plans.variants()
-        self.has_peers = os.path.exists(self.program("run_peer"))
-        self.has_optimisers = os.path.exists(self.program("optimiser_experiment"))
+        self.has_peers = programs.has("run_peer")
+        self.has_optimisers = programs.has("optimiser_experiment")
         for key in plan.sequences:
             if not paper_only or key not in plan.beyond or key in (plan.basin, plan.basin_relit):
                 self.film(key)
@@ -35,7 +36,7 @@ class Experiments:
         self.add_pictures()
 
     def program(self, name):
-        return os.path.join(self.programs, name)
+        return self.programs.path(name)
 
     def add(self, *arguments, **options):
         job = Job(*arguments, **options)
@@ -53,8 +54,11 @@ class Experiments:
         """Folder of a sequence or recording."""
         return self.recordings.get(key, os.path.join("sequences", key))
 
-    def after(self, key):
-        return [self.film_jobs[key]] if key in self.film_jobs else []
+    def source(self, key):
+        """What a job that reads a sequence or recording depends on."""
+        if key in self.film_jobs:
+            return {"after": [self.film_jobs[key]]}
+        return {"sequences": [self.recordings[key]]}
 
     # ---- Tracking runs
 
@@ -87,14 +91,14 @@ class Experiments:
         command = [self.program("run_sequence"), self.sequence(key), "--output", path("txt"),
                    "--force"] + list(options) + method.words() + [">", path("summary")]
         self.add("track/%s/%s/%s" % (kind, key, method.key),
-                 [command] + self.judge(kind, key, path), after=self.after(key))
+                 [command] + self.judge(kind, key, path), **self.source(key))
 
     def track_peer(self, key, peer):
         path = lambda ending: self.run_path("drift", key, "peer_" + peer, ending)
         command = [self.program("run_peer"), self.sequence(key), "--output", path("txt"), "--force",
                    "--method", peer, ">", path("summary")]
         self.add("track/drift/%s/peer_%s" % (key, peer),
-                 [command] + self.judge("drift", key, path), after=self.after(key))
+                 [command] + self.judge("drift", key, path), **self.source(key))
 
     def judge(self, kind, key, path):
         truth = os.path.join(self.sequence(key), "groundtruth.txt")
@@ -120,10 +124,10 @@ class Experiments:
             for method in reversed(methods):
                 path = self.convergence_path(method.key, relit)
                 command = [program, self.sequence(self.plan.basin), "--output", path]
-                after = self.after(self.plan.basin)
+                after = [self.film_jobs[self.plan.basin]]
                 if relit:
                     command += ["--live", self.sequence(self.plan.basin_relit)]
-                    after = after + self.after(self.plan.basin_relit)
+                    after.append(self.film_jobs[self.plan.basin_relit])
                 self.add(path, [command + words + method.words()], after=after)
 
     def convergence_path(self, method, relit):
@@ -137,7 +141,7 @@ class Experiments:
             command = [self.program("optimiser_experiment"), self.sequence(self.plan.basin),
                        "--output", self.optimiser_path(name), "--optimiser", name]
             self.add(self.optimiser_path(name), [command + words + plans.MI.words()],
-                     after=self.after(self.plan.basin), alone=True)
+                     alone=True, **self.source(self.plan.basin))
 
     def optimiser_path(self, name):
         return os.path.join("optimiser", name + ".csv")
@@ -145,11 +149,11 @@ class Experiments:
     def add_level_times(self):
         """Table I by the means of the speed benchmark. The runs take turns, as there."""
         for repetition in range(self.plan.repetitions):
-            for method, words in plans.measure.METHODS.items():
+            for method, words in TIMED.items():
                 path = self.level_path(method, repetition)
                 command = [self.program("run_sequence"), self.sequence(self.plan.basin), "--output",
                            path + ".txt", "--statistics", path + ".csv", "--force", "--threads", "1"]
-                self.add(path, [command + list(words)], after=self.after(self.plan.basin), alone=True)
+                self.add(path, [command + words], alone=True, **self.source(self.plan.basin))
 
     def level_path(self, method, repetition):
         return os.path.join("levels", "%s-%d" % (method, repetition))
@@ -171,7 +175,7 @@ class Experiments:
                    "--frame", str(frame), "--force"]
         summary = os.path.join("pictures", name + ".summary")
         self.add("pictures/" + name, [command + list(settings) + method.words() + [">", summary]],
-                 after=self.after(key))
+                 **self.source(key))
 
     def picture_path(self, name, *parts):
         return os.path.join("pictures", name, *parts)

@@ -6,15 +6,14 @@ import sys
 
 HERE = os.path.dirname(os.path.realpath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
-# The words that a parameter may take stand in the core's table; times per level are the speed
-# benchmark's. At the end: names of modules here come first.
-sys.path += [os.path.join(ROOT, "config"), os.path.join(ROOT, "benchmark", "speed")]
+# The words that a parameter may take stand in the core's table. At the end: names of modules here
+# come first.
+sys.path += [os.path.join(ROOT, "config"), os.path.join(ROOT, "benchmark")]
 
-import measure  # noqa: E402  of the speed benchmark
 import parameter_table  # noqa: E402
+from measuring import methods  # noqa: E402
 
-RAW = {"photometric_model": "none", "geometric_term": "false",
-       "rolling_shutter_estimation": "false"}
+RAW = methods.RAW
 
 
 class Method:
@@ -26,10 +25,7 @@ class Method:
         self.settings = settings
 
     def words(self):
-        result = []
-        for name in sorted(self.settings):
-            result += ["--set", "%s=%s" % (name, self.settings[name])]
-        return result
+        return methods.words(self.settings)
 
 
 def raw(key, title, **settings):
@@ -52,8 +48,7 @@ CONVERGENCE_METHODS = (
 RELIT_METHODS = [SSD, MI, HYBRID, DEFAULT]
 OPTIMISERS = [("newton", "Newton, full Hessian"), ("lbfgs", "L-BFGS, the same gradient"),
               ("lbfgs_differences", "L-BFGS, gradient by differences")]
-PEERS = [("rgbd", "OpenCV RgbdOdometry"), ("icp", "OpenCV ICPOdometry"),
-         ("rgbd_icp", "OpenCV RgbdICPOdometry")]
+PEERS = [(key, "OpenCV " + title) for key, title in methods.PEERS.items()]
 
 
 def variants():
@@ -105,7 +100,7 @@ class Plan:
         self.optimiser_trials = 10 if quick else 200
         self.optimiser_magnitudes = [0.02, 0.1] if quick else [0.02, 0.05, 0.1, 0.15]
         self.pairs = 3 if quick else 10
-        self.repetitions = measure.Plan(quick).repetitions  # of what measures time
+        self.repetitions = 1 if quick else 3  # of what measures time
         self.seed = 7
         self.lamp_frame = 10 if quick else 40
         self.blurred_frame = 12 if quick else 40

@@ -8,7 +8,8 @@ import matplotlib.pyplot as plt  # noqa: E402  the backend must be chosen before
 import numpy as np  # noqa: E402
 from PIL import Image  # noqa: E402
 
-import plan as plans  # noqa: E402
+import plan as plans  # noqa: E402  finds the modules of measuring
+from measuring.tables import LEVELS  # noqa: E402
 
 STYLES = {
     "ssd": dict(color="0.45", linestyle="--", marker="s"),
@@ -162,7 +163,7 @@ def optimisers(results, path):
 def levels(rows, path):
     """Table I as bars; `rows` is {method: statistics of its frames}."""
     figure, axes = plt.subplots(figsize=(7, 3))
-    names = list(reversed(plans.measure.LEVELS))
+    names = list(reversed(LEVELS))
     places = np.arange(len(names))
     width = 0.8 / len(rows)
     for i, (method, hatch) in enumerate(zip(plans.PAPER_METHODS, ("", "////", "....", "xx"))):

@@ -3,32 +3,25 @@
 
 import datetime
 import os
-import platform
 import subprocess
 
 import numpy as np
 
 import findings
 import paper_numbers
-import plan as plans
+import plan as plans  # finds the modules of measuring
 import plots
-import tables
-from jobs import JobError
+from measuring import machine
+from measuring.programs import MeasuringError
+from measuring.tables import level_table, table
 
 PICTURES = "results"
 
 
-def table(header, rows):
-    """A Markdown table."""
-    lines = ["| " + " | ".join(header) + " |", "|" + "---|" * len(header)]
-    lines += ["| " + " | ".join(str(cell) for cell in row) + " |" for row in rows]
-    return "\n".join(lines) + "\n"
-
-
 def number(value):
-    """Three digits: what is small needs decimals. Throws JobError for what is no number."""
+    """Three digits: what is small needs decimals. Throws MeasuringError for what is no number."""
     if not np.isfinite(value):
-        raise JobError("a result is not finite; the output folder says which")
+        raise MeasuringError("a result is not finite; the output folder says which")
     return "%.0f" % value if value >= 100 else "%.1f" % value if value >= 10 else "%.2f" % value
 
 
@@ -44,17 +37,6 @@ def cell(errors):
 
 def paper_cell(pair):
     return "%s / %s" % (spread(*pair[0]), spread(*pair[1]))
-
-
-def processor():
-    try:
-        with open("/proc/cpuinfo", encoding="utf-8") as info:
-            for line in info:
-                if line.startswith("model name"):
-                    return line.split(":", 1)[1].strip()
-    except OSError:
-        pass
-    return platform.machine()
 
 
 def version(program):
@@ -115,7 +97,7 @@ class Report:
             "seeds stand at the end. The paper's sequences are recordings of a real camera and of "
             "another synthetic room: its numbers are printed beside ours to compare the order of "
             "the methods, not the digits." % (
-                processor(), os.cpu_count(), datetime.date.today().isoformat(),
+                machine.processor(), machine.cores(), datetime.date.today().isoformat(),
                 version(self.results.experiments.program("run_sequence")),
                 self.results.folder.processor_minutes(self.results.experiments.jobs), plan.frames,
                 ", 320 x 240" if plan.quick else ", 640 x 480"),
@@ -196,15 +178,15 @@ class Report:
                     self.results)
 
     def level_section(self):
-        measured = self.results.level_times()
-        rows = [[level] + list(times) for level, times in paper_numbers.TABLE_1.items()]
+        rows = self.results.level_times()
+        paper = [[level] + list(times) for level, times in paper_numbers.TABLE_1.items()]
         self.add("## Time per level (Table I)",
                  "Milliseconds of processor time of one thread per frame on `%s`, mean ± standard "
                  "deviation, as the speed benchmark takes them: without the images' pyramids and new "
-                 "keyframes." % self.plan.basin, tables.level_table(measured),
+                 "keyframes." % self.plan.basin, level_table(rows),
                  "The paper's, on a desktop i7 at 640 x 480:",
-                 table(["level", "SSD", "MI", "hybrid"], rows))
-        self.figure("levels.png", "Time per level", plots.levels, measured["rows"])
+                 table(["level", "SSD", "MI", "hybrid"], paper))
+        self.figure("levels.png", "Time per level", plots.levels, rows)
 
     def table_2_section(self):
         names = {"constant": "nominal", "oscillating": "varying light"}

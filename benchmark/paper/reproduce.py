@@ -5,15 +5,13 @@ import argparse
 import os
 import sys
 
-import plan as plans
+import plan as plans  # finds the modules of measuring
 from experiments import FOLDERS, Experiments
-from jobs import Folder, JobError, run_jobs
+from measuring.jobs import Folder, run_jobs
+from measuring.programs import MeasuringError, Programs
+from measuring.sequences import find_recordings
 from report import Report
 from results import Results
-
-NEEDED = ("generate_sequence", "run_sequence", "evaluate_trajectory", "pose_errors",
-          "convergence_experiment", "tracking_pictures")
-
 
 def arguments():
     parser = argparse.ArgumentParser(
@@ -41,34 +39,14 @@ def arguments():
     return options
 
 
-def find_recordings():
-    """Sequence folders with truth in $MIVO_DATA, by a name for files."""
-    root = os.environ.get("MIVO_DATA", "")
-    if not root:
-        return {}
-    if not os.path.isdir(root):
-        raise JobError("MIVO_DATA: there is no folder '%s'" % root)
-    return {"recording_" + name: os.path.join(os.path.abspath(root), name)
-            for name in sorted(os.listdir(root))
-            if os.path.exists(os.path.join(root, name, "groundtruth.txt"))}
-
-
-def find_programs(build):
-    folder = os.path.join(os.path.abspath(build), "bin")
-    for name in NEEDED:
-        if not os.path.exists(os.path.join(folder, name)):
-            raise JobError("there is no %s in %s: build with scripts/build -DMIVO_WITH_BENCHMARKS=ON"
-                           % (name, folder))
-    return folder
-
-
 def run(options):
     plan = plans.Plan(options.quick)
     output = options.output or os.path.join(plans.ROOT, "paper_output",
                                             "quick" if options.quick else "full")
     document = options.document or (output if options.quick else os.path.join(plans.ROOT, "doc"))
-    experiments = Experiments(plan, find_programs(options.build), find_recordings(),
-                              options.paper_only)
+    recordings = {"recording_" + name: path  # a name for files
+                  for name, path in find_recordings("groundtruth.txt").items()}
+    experiments = Experiments(plan, Programs(options.build), recordings, options.paper_only)
     folder = Folder(os.path.abspath(output))
     for name in FOLDERS:
         os.makedirs(folder.file(name), exist_ok=True)
@@ -81,7 +59,7 @@ def main():
     options = arguments()
     try:
         run(options)
-    except JobError as error:
+    except MeasuringError as error:
         sys.stderr.write("reproduce_paper: %s\n" % " ".join(str(error).split()))
         return 1
     except KeyboardInterrupt:

@@ -1,27 +1,15 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Reads what the jobs left behind."""
 
-import csv
 import json
 import math
 
 import numpy as np
 
-import plan as plans  # finds the modules of the speed benchmark
-import measure
-import programs
-
-
-def read_rows(path):
-    """Rows of a CSV file with a header, as dictionaries of numbers."""
-    with open(path, encoding="utf-8") as table:
-        return [{name: float(value) for name, value in row.items()} for row in csv.DictReader(table)]
-
-
-def read_summary(path):
-    """Lines `name: value` with the values as text."""
-    with open(path, encoding="utf-8") as lines:
-        return dict(line.strip().split(": ", 1) for line in lines if ": " in line)
+import plan as plans  # finds the modules of measuring
+from measuring.methods import TIMED
+from measuring.statistics import by_frame, read_rows, read_value_file
+from measuring.tables import level_sums
 
 
 def wilson(successes, trials, z=1.96):
@@ -81,7 +69,7 @@ class Results:
             path = lambda ending: self.folder.file(
                 self.experiments.run_path(kind, key, method.key, ending))
             rows += read_rows(path("csv"))
-            summary = read_summary(path("summary"))
+            summary = read_value_file(path("summary"))
             lost += int(summary["lost"])
             frames += int(summary["frames"])
         return Errors(rows, lost, frames)
@@ -92,7 +80,7 @@ class Results:
             self.experiments.run_path("drift", key, method_key, ending))
         with open(path("json"), encoding="utf-8") as figures:
             result = json.load(figures)
-        result.update({name: float(value) for name, value in read_summary(path("summary")).items()})
+        result.update({name: float(value) for name, value in read_value_file(path("summary")).items()})
         return result
 
     def basin(self, method, relit=False):
@@ -107,25 +95,23 @@ class Results:
         return trials
 
     def level_times(self):
-        """What the speed benchmark makes its Table I of, the first frame left out as there."""
+        """What the speed benchmark makes its Table I of, too, the first frame left out as there."""
         rows = {}
-        for method in measure.METHODS:
+        for method in TIMED:
             paths = [self.folder.file(self.experiments.level_path(method, repetition) + ".csv")
                      for repetition in range(self.experiments.plan.repetitions)]
-            rows[method] = measure.by_frame([programs.read_rows(path)[1:] for path in paths])
-        return {"rows": rows}
+            rows[method] = by_frame([read_rows(path)[1:] for path in paths])
+        return rows
 
     def tracking_time(self, method):
         """Mean over the frames of the time on all levels, ms."""
-        rows = self.level_times()["rows"][method.key]
-        return float(np.mean([sum(row["ms_%d" % level] for level in measure.LEVELS)
-                              for row in rows]))
+        return float(np.mean(level_sums(self.level_times()[method.key])))
 
     def picture(self, name, image):
         return self.folder.file(self.experiments.picture_path(name, image))
 
     def picture_summary(self, name):
-        return read_summary(self.folder.file("pictures", name + ".summary"))
+        return read_value_file(self.folder.file("pictures", name + ".summary"))
 
     def illuminance(self, key):
         """Seconds and lux of each frame of a sequence."""

@@ -5,37 +5,36 @@
     scripts/benchmark robustness [--quick] [--document] [--only PART]... [--methods NAME]...
 
 Films and relights what it needs, runs every method over it and prints the tables of
-doc/robustness.md. What is filmed already is kept, what was run with the same program too.
+doc/robustness.md. What is filmed already is kept, what was run by the same program too.
 """
 
 import argparse
 import datetime
-import hashlib
-import json
 import os
-import platform
-import statistics
 import sys
 
 import numpy as np
 
 HERE = os.path.dirname(os.path.realpath(__file__))
 ROOT = os.path.dirname(os.path.dirname(HERE))
-sys.path.append(os.path.join(os.path.dirname(HERE), "speed"))
-from programs import ProgramError, Programs, read_values  # noqa: E402  of the speed benchmark
+sys.path.append(os.path.dirname(HERE))
 
-import sequences  # noqa: E402
-from progress import Progress  # noqa: E402
-from trajectories import (  # noqa: E402
-    covariance_of, difference, normalised_error, poses_at, read_statistics, read_trajectory)
+import events  # noqa: E402
+from measuring import machine, sequences  # noqa: E402  found by the path above
+from measuring.jobs import Folder, Job  # noqa: E402
+from measuring.methods import raw_words  # noqa: E402
+from measuring.programs import MeasuringError, Programs  # noqa: E402
+from measuring.progress import Progress  # noqa: E402
+from measuring.statistics import quantile, read_rows, read_value_file  # noqa: E402
+from measuring.tables import table  # noqa: E402
+from measuring.trajectories import (  # noqa: E402
+    covariance_of, difference, normalised_error, poses_at, read_trajectory)
 
-RAW = ["--set", "photometric_model=none", "--set", "geometric_term=false", "--set",
-       "rolling_shutter_estimation=false"]
 METHODS = {
     "mivo": ["run_sequence"],
-    "hybrid": ["run_sequence", "--method", "hybrid"] + RAW,
-    "mi": ["run_sequence", "--method", "mi"] + RAW,
-    "ssd": ["run_sequence", "--method", "ssd"] + RAW,
+    "hybrid": ["run_sequence"] + raw_words("hybrid"),
+    "mi": ["run_sequence"] + raw_words("mi"),
+    "ssd": ["run_sequence"] + raw_words("ssd"),
     "rgbd": ["run_peer", "--method", "rgbd"],
     "rgbd_icp": ["run_peer", "--method", "rgbd_icp"],
 }
@@ -51,34 +50,34 @@ CALLED_WRONG_M, CALLED_WRONG_DEG = 0.10, 5.0
 class Bench:
     def __init__(self, options):
         self.options = options
-        self.root = os.path.abspath(options.output)
-        self.programs = Programs(options.build, self.root)
+        self.results = Folder(os.path.abspath(options.output))
+        self.programs = Programs(options.build)
         self.lines = []
-        self.data = os.environ.get("MIVO_DATA")
         self.methods = options.methods or list(METHODS)
         self.frames = 60 if options.quick else 100
-        os.makedirs(os.path.join(self.root, "runs"), exist_ok=True)
+        os.makedirs(self.results.file("sequences"), exist_ok=True)
 
     def say(self, line):
         print(line, flush=True)
         self.lines.append(line)
 
     def folder(self, name):
-        return os.path.join(self.root, "sequences", name)
+        return self.results.file("sequences", name)
 
     def filmed(self, scene, seed, path, light):
         """A filmed sequence. `auto_exposure`: the oscillating lamps under an automatic exposure."""
         name = f"{scene}{seed}_{path}_{light}_{self.frames}"
         options = ["--auto-exposure"] if light == "auto_exposure" else []
         lamps = "oscillating" if light == "auto_exposure" else light
-        return sequences.generate(self.programs, self.folder(name), self.frames, scene, path, lamps, seed, options)
+        return sequences.generate(self.programs, self.folder(name), "--frames", self.frames,
+                                  "--scene", scene, "--trajectory", path, "--lighting", lamps,
+                                  "--seed", seed, *options)
 
     def recordings(self):
-        if not self.data:
+        found = sequences.find_recordings("groundtruth.txt")
+        if not found:
             print("recordings are left out: MIVO_DATA names no folder", file=sys.stderr)
-            return []
-        found = [os.path.join(self.data, name) for name in RECORDINGS]
-        return [folder for folder in found if os.path.isdir(folder)]
+        return [found[name] for name in RECORDINGS if name in found]
 
     def relit(self, source, light):
         if light == "constant":
@@ -88,21 +87,21 @@ class Bench:
 
     def run(self, method, folder, *options):
         """Figures of a run; its trajectory and statistics stay in `runs`."""
-        command = METHODS[method] + [str(option) for option in options]
-        binary = os.path.join(self.programs.folder, command[0])
-        key = json.dumps([command, os.path.abspath(folder), os.path.getmtime(binary)])
-        base = os.path.join(self.root, "runs", hashlib.sha1(key.encode()).hexdigest()[:16])
-        if not os.path.exists(base + ".json"):
-            arguments = command[1:] + ["--output", base + ".txt", "--force"]
-            if command[0] == "run_sequence":
-                arguments += ["--statistics", base + ".csv"]
-            figures = read_values(self.programs.run(command[0], folder, *arguments))
-            figures.update(read_values(self.programs.run(
-                "evaluate_trajectory", os.path.join(folder, "groundtruth.txt"), base + ".txt")))
-            with open(base + ".json", "w", encoding="utf-8") as file:
-                json.dump(figures, file)
-        with open(base + ".json", encoding="utf-8") as file:
-            figures = json.load(file)
+        words = METHODS[method][1:] + [str(option) for option in options]
+        name = "-".join([os.path.basename(folder), method]
+                        + [str(option).strip("-") for option in options])
+        base = self.results.file("runs", name)
+        command = [self.programs.path(METHODS[method][0]), folder] + words + [
+            "--output", base + ".txt", "--force"]
+        if METHODS[method][0] == "run_sequence":
+            command += ["--statistics", base + ".csv"]
+        judge = [self.programs.path("evaluate_trajectory"),
+                 os.path.join(folder, "groundtruth.txt"), base + ".txt"]
+        self.results.run_once(Job("run/" + name, [command + [">", base + ".summary"],
+                                                  judge + [">", base + ".errors"]],
+                                  sequences=[folder]))
+        figures = read_value_file(base + ".summary")
+        figures.update(read_value_file(base + ".errors"))
         figures["base"] = base
         return figures
 
@@ -113,7 +112,7 @@ class Bench:
         truth, has_truth = poses_at(stamps, *read_trajectory(os.path.join(folder,
                                                                           "groundtruth.txt")))
         keyframe_of, wrong = {}, []
-        rows = read_statistics(figures["base"] + ".csv")
+        rows = read_rows(figures["base"] + ".csv")
         made = 0
         for i, row in enumerate(rows):
             number = int(row["keyframe"])
@@ -122,7 +121,7 @@ class Bench:
                 metres, radians = difference(poses[k], poses[i], truth[k], truth[i])
                 if metres > CALLED_WRONG_M or np.degrees(radians) > CALLED_WRONG_DEG:
                     wrong.append(i)
-            if row["new_keyframe"] == "1":
+            if row["new_keyframe"] == 1.0:
                 made += 1
                 keyframe_of[made] = i
         return wrong, rows, poses, truth
@@ -140,10 +139,7 @@ def cell(figures):
 
 def print_table(bench, title, head, rows):
     bench.say(f"\n## {title}\n")
-    bench.say("| " + " | ".join(head) + " |")
-    bench.say("|" + "---|" * len(head))
-    for row in rows:
-        bench.say("| " + " | ".join(row) + " |")
+    bench.say(table(head, rows).rstrip("\n"))
 
 
 def light(bench):
@@ -158,7 +154,7 @@ def light(bench):
     for recording in bench.recordings():
         tasks += [(os.path.basename(recording), name, "recording",
                    lambda r=recording, n=name: bench.relit(r, n)) for name in ["constant"] + RELIT]
-    rows, default, peers, progress = [], {}, {}, Progress("light", len(tasks))
+    rows, default, peers, progress = [], {}, {}, Progress(len(tasks), "sequences of light")
     for name, lamps, kind, folder_of in tasks:
         folder = folder_of()
         results = {method: bench.run(method, folder) for method in bench.methods}
@@ -168,7 +164,8 @@ def light(bench):
             default[name, lamps] = (kind, rpe(results["mivo"], which))
         peers[name, lamps] = min((rpe(results[m])[0] for m in ("rgbd", "rgbd_icp") if m in results),
                                  default=None)
-        progress.advance()
+        progress.step(f"{name} {lamps}")
+    progress.close()
     print_table(bench, "Light: RPE over 1 s, m deg", ["sequence", "light"] + bench.methods, rows)
     judge_light(bench, default, peers)
 
@@ -186,20 +183,21 @@ def judge_light(bench, default, peers):
           f"{sum(row[0] > 1.10 for row in ratios)} of {len(ratios)} above 1.10; rotation worst "
           f"{max(row[1] for row in ratios):.2f}")
     bench.say("generated: RPE median {:.4f} m {:.3f} deg, worst {:.4f} m ({}) {:.3f} deg".format(
-        statistics.median(row[0] for row in generated),
-        statistics.median(row[1] for row in generated), max(generated)[0], max(generated)[2],
+        quantile([row[0] for row in generated], 0.5),
+        quantile([row[1] for row in generated], 0.5), max(generated)[0], max(generated)[2],
         max(row[1] for row in generated)))
     shares = [default[key][1][0] / peer for key, peer in peers.items() if peer and
               default[key][0] == "generated"]
     if shares:
         bench.say(f"generated: at most {max(shares):.3f} of OpenCV's better one, median "
-              f"{statistics.median(shares):.3f}")
+              f"{quantile(shares, 0.5):.3f}")
 
 
 def darkness(bench):
     """20 nearly dark or black frames, with depth and without."""
     rows, scenes = [], SCENES[:1] if bench.options.quick else SCENES
-    progress = Progress("darkness", len(scenes) * 6 + 4)
+    recordings = bench.recordings()
+    progress = Progress(6 * len(scenes) + 2 * len(recordings), "sequences of darkness")
     for scene, seed in scenes:
         for path in PATHS:
             for kind in NEAR_DARK:
@@ -207,13 +205,14 @@ def darkness(bench):
                 rows.append([f"{scene} {path}", kind] +
                             [cell(bench.run(method, folder)) for method in bench.methods] +
                             [after_darkness(bench, folder)])
-                progress.advance()
-    for recording in bench.recordings():
+                progress.step(f"{scene} {path} {kind}")
+    for recording in recordings:
         for kind in NEAR_DARK:
             folder = bench.relit(recording, kind)
             rows.append([os.path.basename(recording), kind] +
                         [cell(bench.run(method, folder)) for method in bench.methods] + [""])
-            progress.advance()
+            progress.step(f"{os.path.basename(recording)} {kind}")
+    progress.close()
     print_table(bench, "Darkness: RPE over 1 s, m deg",
                 ["sequence", "dark"] + bench.methods + ["without depth: 5 frames later"], rows)
 
@@ -221,7 +220,7 @@ def darkness(bench):
 def after_darkness(bench, folder):
     """The same without depth in the dark: pose error 5 frames after the light is back."""
     first = (bench.frames - 20) // 2
-    bare = sequences.without_depth(folder + "_without_depth", folder, first, 20)
+    bare = events.without_depth(folder + "_without_depth", folder, first, 20)
     figures = bench.run("mivo", bare)
     wrong, rows, poses, truth = bench.judged(figures, bare)
     states = {row["state"] for row in rows[first + 2:first + 18]}
@@ -235,15 +234,17 @@ def loss(bench):
     scenes = SCENES[:1] if bench.options.quick else SCENES
     places = [bench.filmed(scene, seed, "figure_of_eight", "constant") for scene, seed in scenes]
     middle = bench.frames // 2
+    missing = 3 * bench.frames // 10  # more than a second is left of a short sequence, too
     for i, place in enumerate(places):
         name = os.path.basename(place)
         other = places[(i + 1) % len(places)] if len(places) > 1 else bench.filmed(
             "office", 2, "rotation", "constant")
         for kind, folder in [
-                ("covered 2 s", sequences.covered(place + "_covered", place, middle, 60)),
-                ("teleport", sequences.teleported(place + "_teleport", place, middle - 15, 30)),
-                ("joined", sequences.joined(place + "_joined", place, other, middle)),
-                ("blurred", sequences.blurred(place + "_blurred", place, middle, 10))]:
+                ("covered 2 s", events.covered(place + "_covered", place, middle, 60)),
+                ("teleport", events.teleported(place + "_teleport", place, middle - missing // 2,
+                                               missing)),
+                ("joined", events.joined(place + "_joined", place, other, middle)),
+                ("blurred", events.blurred(place + "_blurred", place, middle, 10))]:
             figures = bench.run("mivo", folder)
             wrong, frames, poses, truth = bench.judged(figures, folder)
             back = ""
@@ -331,13 +332,9 @@ def document(bench):
     """Writes doc/robustness.md: the remarks, then the tables of this run."""
     with open(os.path.join(HERE, "remarks.md"), encoding="utf-8") as file:
         remarks = file.read()
-    cpu = platform.processor() or platform.machine()
-    with open("/proc/cpuinfo", encoding="utf-8") as file:
-        cpu = next((line.split(":")[1].strip() for line in file if line.startswith("model name")),
-                   cpu)
     with open(os.path.join(ROOT, "doc", "robustness.md"), "w", encoding="utf-8") as file:
         file.write(remarks + f"\n`scripts/benchmark robustness --document`, {datetime.date.today()}, "
-                   f"{cpu}.\n" + "\n".join(bench.lines) + "\n")
+                   f"{machine.processor()}.\n" + "\n".join(bench.lines) + "\n")
 
 
 def main():
@@ -354,7 +351,7 @@ def main():
     try:
         for part in bench.options.only or PARTS:
             PARTS[part](bench)
-    except ProgramError as error:
+    except MeasuringError as error:
         sys.exit(f"robustness: {error}")
     if bench.options.document:
         document(bench)

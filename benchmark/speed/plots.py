@@ -9,7 +9,8 @@ matplotlib.use("Agg")
 
 import matplotlib.pyplot as plt  # noqa: E402  after the choice of the backend
 
-from measure import LEVELS, column, mean  # noqa: E402
+from measuring.statistics import column, mean  # noqa: E402
+from measuring.tables import LEVELS  # noqa: E402
 
 
 def save(figure, folder, name):

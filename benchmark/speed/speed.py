@@ -3,18 +3,24 @@
 
 import argparse
 import os
-import platform
 import sys
 
-import measure
-import plots
-import tables
-from programs import ProgramError, Programs
+BENCHMARK = os.path.dirname(os.path.dirname(os.path.realpath(__file__)))
+ROOT = os.path.dirname(BENCHMARK)
+sys.path.append(BENCHMARK)
 
-ROOT = os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "..")
+import measure  # noqa: E402
+import plots  # noqa: E402
+import tables  # noqa: E402
+from measuring import machine  # noqa: E402  found by the path above
+from measuring.methods import TIMED  # noqa: E402
+from measuring.programs import MeasuringError, Programs  # noqa: E402
+from measuring.tables import level_table  # noqa: E402
+from runs import Runs  # noqa: E402
+
 INTRODUCTION = """# Speed
 
-Made by `scripts/benchmark speed --document` on %s. Processor time on one
+Made by `scripts/benchmark speed --document` on %s, %d cores. Processor time on one
 thread from decoded 8-bit image and 16-bit depth to the pose, keyframes and undistortion included. Runs
 take turns and each figure is the median over %d of them; what else the machine did is in the
 milliseconds, but hardly in the ratios. SSD, MI and hybrid are the paper's (`photometric_model: none`,
@@ -42,34 +48,25 @@ def arguments():
     return options
 
 
-def machine():
-    with open("/proc/cpuinfo", encoding="utf-8") as info:
-        names = [line.split(":", 1)[1].strip() for line in info if line.startswith("model name")]
-    return "%s, %d cores" % (names[0] if names else platform.processor() or platform.machine(),
-                             os.cpu_count() or 1)
-
-
 def say(text):
     print(text, file=sys.stderr, flush=True)
 
 
-def measure_all(programs, plan, folder):
+def measure_all(runs, plan, folder):
     say("filming ...")
     sequences = {}
-    for name, path in measure.find_sequences(programs, plan).items():
+    for name, path in measure.find_sequences(runs, plan).items():
         say("measuring %s ..." % name)
-        sequences[name] = measure.measure_sequence(programs, plan, path)
+        sequences[name] = measure.measure_sequence(runs, plan, path)
         plots.plot_levels(folder, name, sequences[name])
         plots.plot_frames(folder, name, sequences[name])
     room = os.path.join(folder, "room")
     say("measuring kernels ...")
-    kernels = programs.kernels(plan.kernel_seconds)
+    kernels = runs.kernels(plan.kernel_seconds)
     say("measuring image sizes, points and bins ...")
-    sizes = measure.measure_sizes(programs, plan)
-    points = measure.measure_parameter(programs, plan, room, "point_fraction", measure.FRACTIONS,
-                                       ())
-    bins = measure.measure_parameter(programs, plan, room, "mi_bins", measure.BINS,
-                                     measure.METHODS["mi"])
+    sizes = measure.measure_sizes(runs, plan)
+    points = measure.measure_parameter(runs, plan, room, "point_fraction", measure.FRACTIONS, ())
+    bins = measure.measure_parameter(runs, plan, room, "mi_bins", measure.BINS, TIMED["mi"])
     plots.plot_sizes(folder, sizes)
     plots.plot_parameter(folder, "point_fraction", points)
     plots.plot_parameter(folder, "mi_bins", bins)
@@ -77,13 +74,13 @@ def measure_all(programs, plan, folder):
 
 
 def document(plan, sequences, kernels, sizes, points, bins):
-    parts = [INTRODUCTION % (machine(), plan.repetitions),
+    parts = [INTRODUCTION % (machine.processor(), machine.cores(), plan.repetitions),
              "## Against the goals\n", tables.goal_table(sequences),
              "## Median time per frame, ms\n", tables.median_table(sequences)]
     for name, measured in sequences.items():
         parts += ["## %s\n" % name, "By stage, default:\n", tables.stage_table(measured),
                   "By level, ms, mean ± standard deviation (the paper's Table I):\n",
-                  tables.level_table(measured)]
+                  level_table(measured["rows"])]
     parts += ["## Kernels\n", BACKENDS, tables.kernel_table(kernels),
               "## Cost against resolution, points and bins\n",
               "Median ms per frame by image width (4:3):\n", tables.size_table(sizes),
@@ -100,9 +97,9 @@ def main():
         plan.repetitions = options.repetitions
     folder = os.path.abspath(options.output)
     try:
-        programs = Programs(options.build, folder)
-        text = document(plan, *measure_all(programs, plan, folder))
-    except ProgramError as error:
+        runs = Runs(Programs(options.build), folder)
+        text = document(plan, *measure_all(runs, plan, folder))
+    except MeasuringError as error:
         say("benchmark speed: %s" % error)
         return 1
     targets = [os.path.join(folder, "speed.md")]

@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """Tables in Markdown of what was measured."""
 
-from measure import LEVELS, PEERS, column, deviation, mean, quantile
+from measuring.methods import PEERS
+from measuring.statistics import column, quantile
+from measuring.tables import table
 
 # Asked of one run on one thread; the paper's own figures are 8.2 and 2.55.
 GOALS = (
@@ -12,35 +14,6 @@ GOALS = (
     ("hybrid / SSD", "hybrid", "ssd", 1.5, False))
 KERNEL_GOALS = {"warp_and_interpolation": 5.0, "warp_and_normalised_interpolation": 5.0,
                 "accumulation": 5.0, "mi_gradient_and_hessian": 5.0, "histogram": 3.0}
-
-
-def table(header, rows):
-    lines = ["| " + " | ".join(header) + " |", "|" + "---|" * len(header)]
-    lines += ["| " + " | ".join(row) + " |" for row in rows]
-    return "\n".join(lines) + "\n"
-
-
-def spread(values):
-    return "%.3f ± %.3f" % (mean(values), deviation(values))
-
-
-def level_table(measured):
-    """Table I of the paper."""
-    rows = measured["rows"]
-    lines = []
-    for level in reversed(LEVELS):
-        total, search = "ms_%d" % level, "ms_line_search_%d" % level
-        lines.append([str(level), spread(column(rows["ssd"], total)),
-                      spread(column(rows["mi"], search)), spread(column(rows["mi"], total)),
-                      spread(column(rows["hybrid"], search)), spread(column(rows["hybrid"], total)),
-                      spread(column(rows["default"], search)),
-                      spread(column(rows["default"], total))])
-    all_levels = {name: [sum(row["ms_%d" % level] for level in LEVELS) for row in rows[name]]
-                  for name in rows}
-    lines.append(["all", spread(all_levels["ssd"]), "", spread(all_levels["mi"]), "",
-                  spread(all_levels["hybrid"]), "", spread(all_levels["default"])])
-    return table(["level", "SSD", "MI line search", "MI total", "hybrid line search", "hybrid total",
-                  "default line search", "default total"], lines)
 
 
 def stage_table(measured):

@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Trajectories and statistics as mivo's programs write them, and errors between poses."""
-
-import csv
+"""Trajectories as mivo's programs write them, errors between poses, and their covariances."""
 
 import numpy as np
 
@@ -21,12 +19,6 @@ def read_trajectory(path):
     """Stamps (n) and poses (n, 4, 4) of a trajectory file."""
     rows = np.loadtxt(path, comments="#", ndmin=2)
     return rows[:, 0], np.array([matrix(row[1:4], row[4:8]) for row in rows])
-
-
-def read_statistics(path):
-    """The rows of a statistics file as dictionaries of words."""
-    with open(path, encoding="utf-8") as file:
-        return list(csv.DictReader(file))
 
 
 def poses_at(stamps, truth_stamps, truth_poses, tolerance=0.02):
@@ -60,7 +52,7 @@ def covariance_of(row):
     covariance = np.empty((6, 6))
     for i in range(6):
         for j in range(i, 6):
-            covariance[i, j] = covariance[j, i] = float(row[f"covariance_{i}{j}"])
+            covariance[i, j] = covariance[j, i] = row[f"covariance_{i}{j}"]
     return covariance
 
 
