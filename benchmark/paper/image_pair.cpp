@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "image_pair.h"
 
-#include <cmath>
+#include <algorithm>
 
 #include "mivo/core/error.h"
-#include "mivo/evaluation/stamps.h"
 #include "mivo/io/sequence_reader.h"
-#include "mivo/io/trajectory_io.h"
+#include "true_poses.h"
 
 namespace mivo {
 namespace {
@@ -17,10 +16,7 @@ constexpr double kMaxTimeDifference = 1e-4;  // s: the truth of a synthetic sequ
 class TrueSequence {
  public:
   explicit TrueSequence(const std::string& folder)
-      : folder_(folder),
-        reader_(folder),
-        truth_(sortedByStamp(readTrajectory(folder + "/groundtruth.txt"))),
-        stamps_(stampsOf(truth_)) {}
+      : folder_(folder), reader_(folder), truth_(folder + "/groundtruth.txt", kMaxTimeDifference) {}
 
   const SequenceReader& reader() const { return reader_; }
 
@@ -36,19 +32,12 @@ class TrueSequence {
     return frame;
   }
 
-  const Eigen::Isometry3d& pose(double stamp) const {
-    const std::size_t i = nearestIndex(stamps_, stamp);
-    if (std::abs(stamps_[i] - stamp) > kMaxTimeDifference) {
-      throw Error(folder_ + "/groundtruth.txt has no pose at " + std::to_string(stamp));
-    }
-    return truth_[i].pose;
-  }
+  const Eigen::Isometry3d& pose(double stamp) const { return truth_.at(stamp); }
 
  private:
   std::string folder_;
   SequenceReader reader_;
-  Trajectory truth_;
-  std::vector<double> stamps_;
+  TruePoses truth_;
   std::size_t next_ = 0;
 };
 

@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <fmt/format.h>
 
-#include <cmath>
 #include <iostream>
 #include <string>
-#include <vector>
 
 #include "mivo/core/error.h"
-#include "mivo/core/se3.h"
-#include "mivo/evaluation/stamps.h"
 #include "mivo/io/trajectory_io.h"
 #include "programs/command_line.h"
+#include "random_twist.h"
+#include "true_poses.h"
 
 // The paper's error, one row per frame: Eq. 6 with the steps from frame to frame, or (section IV-C,
 // static tests) with the motion since the first frame.
@@ -37,26 +35,18 @@ void run(int argc, char** argv) {
     throw mivo::UsageError("--reference knows 'first' only");
   }
 
-  const mivo::Trajectory truth = mivo::sortedByStamp(mivo::readTrajectory(truth_path));
+  const mivo::TruePoses truth(truth_path, kMaxTimeDifference);
   const mivo::Trajectory estimate = mivo::sortedByStamp(mivo::readTrajectory(estimate_path));
-  const std::vector<double> stamps = mivo::stampsOf(truth);
-  const auto truePose = [&](double stamp) {
-    const std::size_t i = mivo::nearestIndex(stamps, stamp);
-    if (std::abs(stamps[i] - stamp) > kMaxTimeDifference) {
-      throw mivo::Error(fmt::format("{}: no pose near {:.6f}", truth_path, stamp));
-    }
-    return truth[i].pose;
-  };
   if (estimate.size() < 2) throw mivo::Error(estimate_path + ": fewer than two poses");
   std::cout << "stamp,translation_m,rotation_rad\n";
   for (std::size_t i = 1; i < estimate.size(); ++i) {
     const mivo::StampedPose& from = estimate[reference.empty() ? i - 1 : 0];
     const Eigen::Isometry3d motion = from.pose.inverse() * estimate[i].pose;
     const Eigen::Isometry3d true_motion =
-        truePose(from.stamp).inverse() * truePose(estimate[i].stamp);
-    const mivo::Vector6 error = mivo::logSe3(motion.inverse() * true_motion);
-    std::cout << fmt::format("{:.6f},{:.9g},{:.9g}\n", estimate[i].stamp, error.head<3>().norm(),
-                             error.tail<3>().norm());
+        truth.at(from.stamp).inverse() * truth.at(estimate[i].stamp);
+    const mivo::PoseDifference error = mivo::difference(motion.inverse(), true_motion.inverse());
+    std::cout << fmt::format("{:.6f},{:.9g},{:.9g}\n", estimate[i].stamp, error.translation,
+                             error.rotation);
   }
 }
 

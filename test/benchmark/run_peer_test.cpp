@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <opencv2/core/utility.hpp>
 #include <opencv2/imgcodecs.hpp>
 
@@ -25,15 +24,6 @@ class RunPeerTest : public ProgramTest {
     return run("run_peer", options);
   }
 
-  double largestError() const {
-    double largest = 0.0;
-    for (const StampedPose& pose : readTrajectory(output_)) {
-      const int i = static_cast<int>(std::lround((pose.stamp - planeStamp(0)) * 30.0));
-      largest = std::max(largest, (pose.pose.translation() - planePose(i).translation()).norm());
-    }
-    return largest;
-  }
-
   std::string sequence_;
   std::string output_;
 };
@@ -49,7 +39,7 @@ TEST_F(RunPeerTest, FollowsTheCamera) {
   EXPECT_GT(valueOf(result.output, "cpu_ms_median"), 0.0);
   EXPECT_GE(valueOf(result.output, "cpu_ms_p95"), valueOf(result.output, "cpu_ms_median"));
   EXPECT_EQ(readTrajectory(output_).size(), static_cast<std::size_t>(kFrames));
-  EXPECT_LT(largestError(), 0.03);
+  EXPECT_LT(largestPlaneError(output_), 0.03);
 }
 
 TEST_F(RunPeerTest, CountsAFailureAndKeepsTheLastPose) {

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "programs/plane_sequence.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "mivo/core/se3.h"
+#include "mivo/io/trajectory_io.h"
 
 namespace mivo {
 namespace {
@@ -65,6 +67,17 @@ void writePlaneSequence(const std::string& folder, int frames) {
     writer.writeFrame(planeStamp(i), image, planeStamp(i), depth);
     writer.writePose({planeStamp(i), planePose(i)});
   }
+}
+
+double largestPlaneError(const std::string& trajectory, int first_frame) {
+  const Eigen::Isometry3d start = planePose(first_frame);
+  double largest = 0.0;
+  for (const StampedPose& pose : readTrajectory(trajectory)) {
+    const int i = static_cast<int>(std::lround((pose.stamp - planeStamp(0)) * 30.0));
+    const Eigen::Isometry3d truth = start.inverse() * planePose(i);
+    largest = std::max(largest, (pose.pose.translation() - truth.translation()).norm());
+  }
+  return largest;
 }
 
 }  // namespace mivo

@@ -25,17 +25,7 @@ class RunSequenceTest : public ProgramTest {
     return run("run_sequence", options);
   }
 
-  /// Largest distance of the poses from the truth, which starts at the identity like the estimate.
-  double largestError(int first_frame = 0) const {
-    const Eigen::Isometry3d start = planePose(first_frame);
-    double largest = 0.0;
-    for (const StampedPose& pose : readTrajectory(output_)) {
-      const int i = static_cast<int>(std::lround((pose.stamp - planeStamp(0)) * 30.0));
-      const Eigen::Isometry3d truth = start.inverse() * planePose(i);
-      largest = std::max(largest, (pose.pose.translation() - truth.translation()).norm());
-    }
-    return largest;
-  }
+  double largestError(int first_frame = 0) const { return largestPlaneError(output_, first_frame); }
 
   std::string image(int i) const {
     std::ostringstream name;
