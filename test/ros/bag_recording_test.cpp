@@ -1,20 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Real recordings, where $MIVO_DATA says that there are some: a bag gives the bits of its folder.
-#include <gtest/gtest.h>
-
-#include <cstdlib>
-
-#include "programs/program_fixture.h"
+// A bag of a real recording gives the bits of its folder.
+#include "programs/recording.h"
 
 namespace mivo {
 namespace {
 
-class BagRecordingTest : public ProgramTest, public ::testing::WithParamInterface<const char*> {};
+class BagRecordingTest : public RecordingTest, public ::testing::WithParamInterface<const char*> {};
 
 TEST_P(BagRecordingTest, BagAndFolderGiveTheSameBits) {
-  const char* data = std::getenv("MIVO_DATA");
-  if (data == nullptr) GTEST_SKIP() << "MIVO_DATA is not set: no recordings";
-  const std::string sequence = std::string(data) + "/" + GetParam();
+  const std::string sequence = recording(GetParam());
   const std::string bag = folder_ / "recording.bag";
   const std::string of_folder = folder_ / "folder.txt";
   const std::string of_bag = folder_ / "bag.txt";
