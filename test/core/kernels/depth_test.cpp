@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <limits>
-
 #include "kernel_data.h"
 
 namespace mivo {
@@ -9,10 +7,9 @@ namespace {
 using kernels::Kernels;
 using testing::Array;
 using testing::forEachCase;
+using testing::kInfinity;
+using testing::kNan;
 using testing::Numbers;
-
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 /// Depths of a surface with noise, holes and steps.
 Array surface(Numbers& numbers, std::size_t n, std::size_t offset) {

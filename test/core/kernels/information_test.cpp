@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <cmath>
 #include <cstdint>
-#include <limits>
 
 #include "kernel_data.h"
 
@@ -10,6 +8,7 @@ namespace {
 
 using kernels::Kernels;
 using testing::Array;
+using testing::Columns;
 using testing::forEachCase;
 using testing::Numbers;
 
@@ -59,8 +58,7 @@ TEST(VectorInformationTest, HistogramsAgreeWithTheReference) {
       const Bins reference = randomBins(n, offset, num_bins, 2);
       const Bins live = randomBins(n, offset, num_bins, 3);
       const Array visible = Numbers(4).visible(n, offset);
-      std::vector<float> scratch(kernels::histogramScratch(side),
-                                 std::numeric_limits<float>::quiet_NaN());
+      std::vector<float> scratch(kernels::histogramScratch(side), testing::kNan);
       const auto cells = static_cast<std::size_t>(side * side);
       std::vector<double> expected(cells, 1.0);  // what is there is added to
       std::vector<double> actual(cells, 1.0);
@@ -101,12 +99,8 @@ TEST(VectorInformationTest, DerivativesAgreeWithTheReference) {
       const Bins reference = randomBins(n, offset, num_bins, 6);
       const Bins live = randomBins(n, offset, num_bins, 7);
       const Array active = numbers.visible(n, offset);
-      std::vector<Array> columns;
-      const float* jacobian[6];
-      const float* second[21];
-      for (int k = 0; k < 27; ++k) columns.push_back(numbers.array(n, offset, -30.0F, 50.0F));
-      for (std::size_t k = 0; k < 6; ++k) jacobian[k] = columns[k].data();
-      for (std::size_t k = 0; k < 21; ++k) second[k] = columns[6 + k].data();
+      const Columns<6> jacobian(numbers, n, offset, -30.0F, 50.0F);
+      const Columns<21> second(numbers, n, offset, -30.0F, 50.0F);
       Array rows_in(n * kernels::kRowFloats, offset);
       for (std::size_t i = 0; i < n; ++i) {
         for (std::size_t k = 0; k < 6; ++k) rows_in[i * kernels::kRowFloats + k] = jacobian[k][i];
@@ -120,8 +114,8 @@ TEST(VectorInformationTest, DerivativesAgreeWithTheReference) {
       const auto run = [&](const Kernels& k, std::vector<float>& rows,
                            kernels::InformationSums& sums) {
         k.informationDerivatives(reference.view(), live.view(), active.data(), rows_in.data(),
-                                 jacobian, second, n, side, 0.03F, log_ratio.data(), rows.data(),
-                                 sums);
+                                 jacobian.data(), second.data(), n, side, 0.03F, log_ratio.data(),
+                                 rows.data(), sums);
       };
       run(kernels::scalar(), expected_rows, expected);
       run(kernels, actual_rows, actual);

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <random>
 #include <string>
 #include <vector>
@@ -15,6 +18,48 @@
 
 namespace mivo {
 namespace testing {
+
+constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+/// Size of the small images that points are looked up in.
+constexpr int kWidth = 67;
+constexpr int kHeight = 45;
+
+/// A camera with images of this size that moves while it reads its rows, and has moved from the
+/// keyframe's.
+inline kernels::WarpParameters warpParameters(bool is_distorted, bool has_row_motion) {
+  kernels::WarpParameters p{};
+  const float rotation[9] = {0.9987F,  -0.0399F, 0.0298F, 0.0404F, 0.9990F,
+                             -0.0186F, -0.0290F, 0.0198F, 0.9994F};
+  std::copy(rotation, rotation + 9, p.rotation);
+  p.translation[0] = 0.05F;
+  p.translation[1] = -0.03F;
+  p.translation[2] = 0.02F;
+  p.has_row_motion = has_row_motion;
+  p.angular[0] = 0.03F;
+  p.angular[1] = -0.04F;
+  p.angular[2] = 0.02F;
+  p.linear[0] = 0.01F;
+  p.linear[1] = 0.02F;
+  p.linear[2] = -0.01F;
+  p.row_duration = 1.0F / kHeight;
+  p.first_row = -0.5F;
+  p.fx = 55.0F;
+  p.fy = 56.0F;
+  p.cx = 33.2F;
+  p.cy = 21.7F;
+  p.is_distorted = is_distorted;
+  p.k1 = 0.2F;
+  p.k2 = -0.3F;
+  p.p1 = 0.001F;
+  p.p2 = -0.002F;
+  p.k3 = 0.1F;
+  p.max_squared_radius = 0.8F;
+  p.right = kWidth - 1;
+  p.bottom = kHeight - 1;
+  return p;
+}
 
 /// 0 to 3 vectors of the widest instruction set, one by one, and around a tile and a sum.
 inline std::vector<std::size_t> awkwardLengths() {
@@ -76,6 +121,39 @@ class Numbers {
  private:
   std::mt19937 engine_;
 };
+
+/// Random columns, as the kernels take those of a Jacobian.
+template <std::size_t count>
+class Columns {
+ public:
+  Columns(Numbers& numbers, std::size_t n, std::size_t offset, float low, float high) {
+    for (std::size_t k = 0; k < count; ++k) {
+      arrays_.push_back(numbers.array(n, offset, low, high));
+      pointers_[k] = arrays_.back().data();
+    }
+  }
+  const float* const* data() const { return pointers_.data(); }
+  const float* operator[](std::size_t k) const { return pointers_[k]; }
+
+ private:
+  std::vector<Array> arrays_;
+  std::array<const float*, count> pointers_{};
+};
+
+/// Compares the upper triangles of two 6 x 6 sums of products. Cauchy and Schwarz bound the sum of
+/// magnitudes, by which rounding is measured, by the diagonal.
+inline void expectNearTriangles(const double* actual, const double* expected, double tolerance) {
+  const std::size_t diagonal[6] = {0, 6, 11, 15, 18, 20};
+  std::size_t entry = 0;
+  for (const std::size_t row : diagonal) {
+    for (const std::size_t column : diagonal) {
+      if (column < row) continue;
+      EXPECT_NEAR(actual[entry], expected[entry],
+                  tolerance * std::sqrt(expected[row] * expected[column]));
+      ++entry;
+    }
+  }
+}
 
 /// Runs a test of every vector backend against the reference at every length and some offsets.
 template <typename Test>

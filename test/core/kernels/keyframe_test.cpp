@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <cmath>
-
 #include "kernel_data.h"
 
 namespace mivo {
@@ -13,22 +11,14 @@ using testing::Numbers;
 
 constexpr float kUnset = -777.0F;
 
+/// Pixels of a whole image, and the lens of a real camera.
 kernels::WarpParameters cameraOf(bool is_distorted, bool has_row_motion) {
-  kernels::WarpParameters p{};
-  p.has_row_motion = has_row_motion;
-  p.angular[0] = 0.03F;
-  p.angular[1] = -0.04F;
-  p.angular[2] = 0.02F;
-  p.linear[0] = 0.01F;
-  p.linear[1] = 0.02F;
-  p.linear[2] = -0.01F;
+  kernels::WarpParameters p = testing::warpParameters(is_distorted, has_row_motion);
   p.row_duration = 1.0F / 480.0F;
-  p.first_row = -0.5F;
   p.fx = 525.0F;
   p.fy = 520.0F;
   p.cx = 319.5F;
   p.cy = 239.5F;
-  p.is_distorted = is_distorted;
   p.k1 = 0.26F;
   p.k2 = -0.95F;
   p.p1 = -0.005F;
@@ -96,15 +86,7 @@ void expectAgreement(const Output& actual, const Output& expected, std::size_t n
       }
     }
   }
-  const int diagonal[6] = {0, 6, 11, 15, 18, 20};
-  int entry = 0;
-  for (int row = 0; row < 6; ++row) {
-    for (int column = row; column < 6; ++column, ++entry) {
-      const double size =
-          std::sqrt(expected.motion[diagonal[row]] * expected.motion[diagonal[column]]);
-      EXPECT_NEAR(actual.motion[entry], expected.motion[entry], 1e-5 * size);
-    }
-  }
+  testing::expectNearTriangles(actual.motion, expected.motion, 1e-5);
   for (const Array& array : actual.arrays) array.expectGuarded();
 }
 

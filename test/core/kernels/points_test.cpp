@@ -1,7 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <cmath>
-#include <limits>
-
 #include "kernel_data.h"
 
 namespace mivo {
@@ -11,45 +8,12 @@ using kernels::Kernels;
 using kernels::WarpParameters;
 using testing::Array;
 using testing::forEachCase;
+using testing::kHeight;
+using testing::kInfinity;
+using testing::kNan;
+using testing::kWidth;
 using testing::Numbers;
-
-constexpr int kWidth = 67;
-constexpr int kHeight = 45;
-constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
-WarpParameters warpParameters(bool is_distorted, bool has_row_motion) {
-  WarpParameters p{};
-  const float rotation[9] = {0.9987F,  -0.0399F, 0.0298F, 0.0404F, 0.9990F,
-                             -0.0186F, -0.0290F, 0.0198F, 0.9994F};
-  std::copy(rotation, rotation + 9, p.rotation);
-  p.translation[0] = 0.05F;
-  p.translation[1] = -0.03F;
-  p.translation[2] = 0.02F;
-  p.has_row_motion = has_row_motion;
-  p.angular[0] = 0.03F;
-  p.angular[1] = -0.04F;
-  p.angular[2] = 0.02F;
-  p.linear[0] = 0.01F;
-  p.linear[1] = 0.02F;
-  p.linear[2] = -0.01F;
-  p.row_duration = 1.0F / kHeight;
-  p.first_row = -0.5F;
-  p.fx = 55.0F;
-  p.fy = 56.0F;
-  p.cx = 33.2F;
-  p.cy = 21.7F;
-  p.is_distorted = is_distorted;
-  p.k1 = 0.2F;
-  p.k2 = -0.3F;
-  p.p1 = 0.001F;
-  p.p2 = -0.002F;
-  p.k3 = 0.1F;
-  p.max_squared_radius = 0.8F;
-  p.right = kWidth - 1;
-  p.bottom = kHeight - 1;
-  return p;
-}
+using testing::warpParameters;
 
 struct Points {
   Array x, y, z;
