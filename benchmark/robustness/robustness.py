@@ -55,6 +55,9 @@ class Bench:
         self.lines = []
         self.methods = options.methods or list(METHODS)
         self.frames = 60 if options.quick else 100
+        self.size = ["--width", 320, "--height", 240] if options.quick else []
+        self.scenes = SCENES[:1] if options.quick else SCENES
+        self.paths = PATHS[-1:] if options.quick else PATHS
         os.makedirs(self.results.file("sequences"), exist_ok=True)
 
     def say(self, line):
@@ -67,7 +70,7 @@ class Bench:
     def filmed(self, scene, seed, path, light):
         """A filmed sequence. `auto_exposure`: the oscillating lamps under an automatic exposure."""
         name = f"{scene}{seed}_{path}_{light}_{self.frames}"
-        options = ["--auto-exposure"] if light == "auto_exposure" else []
+        options = self.size + (["--auto-exposure"] if light == "auto_exposure" else [])
         lamps = "oscillating" if light == "auto_exposure" else light
         return sequences.generate(self.programs, self.folder(name), "--frames", self.frames,
                                   "--scene", scene, "--trajectory", path, "--lighting", lamps,
@@ -145,9 +148,8 @@ def print_table(bench, title, head, rows):
 def light(bench):
     """RPE over 1 s under each light, and its ratio to constant light."""
     tasks = []
-    scenes = SCENES[:1] if bench.options.quick else SCENES
-    for scene, seed in scenes:
-        for path in PATHS:
+    for scene, seed in bench.scenes:
+        for path in bench.paths:
             tasks += [(f"{scene} {path}", name, "generated",
                        lambda s=scene, e=seed, p=path, n=name: bench.filmed(s, e, p, n))
                       for name in FILMED_LIGHT]
@@ -195,11 +197,13 @@ def judge_light(bench, default, peers):
 
 def darkness(bench):
     """20 nearly dark or black frames, with depth and without."""
-    rows, scenes = [], SCENES[:1] if bench.options.quick else SCENES
+    rows = []
     recordings = bench.recordings()
-    progress = Progress(6 * len(scenes) + 2 * len(recordings), "sequences of darkness")
-    for scene, seed in scenes:
-        for path in PATHS:
+    progress = Progress(
+        len(NEAR_DARK) * (len(bench.scenes) * len(bench.paths) + len(recordings)),
+        "sequences of darkness")
+    for scene, seed in bench.scenes:
+        for path in bench.paths:
             for kind in NEAR_DARK:
                 folder = bench.filmed(scene, seed, path, kind)
                 rows.append([f"{scene} {path}", kind] +
@@ -231,8 +235,8 @@ def after_darkness(bench, folder):
 def loss(bench):
     """Frames called tracking that are not, good frames called lost, recovery."""
     rows = []
-    scenes = SCENES[:1] if bench.options.quick else SCENES
-    places = [bench.filmed(scene, seed, "figure_of_eight", "constant") for scene, seed in scenes]
+    places = [bench.filmed(scene, seed, "figure_of_eight", "constant")
+              for scene, seed in bench.scenes]
     middle = bench.frames // 2
     missing = 3 * bench.frames // 10  # more than a second is left of a short sequence, too
     for i, place in enumerate(places):
@@ -269,7 +273,7 @@ def recovery(frames, poses, truth, first):
 def static(bench):
     """Table III: one real or filmed frame relit, every frame from a disturbed start."""
     rows = []
-    for scene, seed in SCENES[:1] if bench.options.quick else SCENES:
+    for scene, seed in bench.scenes:
         for kind, light_name in (("S1", "ramp_step"), ("S2", "moving_lamp")):
             folder = bench.filmed(scene, seed, "static", light_name)
             cells = []
@@ -291,7 +295,7 @@ def static(bench):
 def rest(bench):
     """A camera that stands still: rms about its mean."""
     rows = []
-    for scene, seed in SCENES[:1] if bench.options.quick else SCENES:
+    for scene, seed in bench.scenes:
         for lamps in ("constant", "oscillating"):
             folder = bench.filmed(scene, seed, "static", lamps)
             figures = bench.run("mivo", folder)
@@ -308,8 +312,8 @@ def rest(bench):
 def covariance(bench):
     """Error of each pose, the first being true, over the covariance that is claimed for it."""
     rows, every = [], []
-    for scene, seed in SCENES[:1] if bench.options.quick else SCENES:
-        for path in PATHS:
+    for scene, seed in bench.scenes:
+        for path in bench.paths:
             folder = bench.filmed(scene, seed, path, "constant")
             figures = bench.run("mivo", folder)
             _, frames, poses, truth = bench.judged(figures, folder)
@@ -339,7 +343,8 @@ def document(bench):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--quick", action="store_true", help="one scene, shorter sequences")
+    parser.add_argument("--quick", action="store_true",
+                        help="one scene and path, short sequences of small images")
     parser.add_argument("--build", default="build", metavar="FOLDER")
     parser.add_argument("--output", default="benchmark_output/robustness", metavar="FOLDER")
     parser.add_argument("--document", action="store_true", help="write doc/robustness.md, too")
