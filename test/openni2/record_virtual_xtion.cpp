@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// record_virtual_xtion FILE.oni IMAGES: a recording of the virtual camera, for tests. Writes the
-// start of the sequence into the camera's control file.
+// record_virtual_xtion FILE.oni IMAGES: a recording of the virtual camera, for tests. Lets the
+// sequence play by the camera's control file.
 
 #include <unistd.h>
 
@@ -12,22 +12,23 @@
 #include <iostream>
 #include <sstream>
 #include <string>
+#include <thread>
 
 #include "openni2/recorder.h"
 
 namespace {
 
-constexpr unsigned kWatchdog = 100;             // s: the SDK's recorder is known to lock up
-constexpr std::int64_t kStillTime = 500000000;  // ns, of the first image before the sequence moves
+constexpr unsigned kWatchdog = 100;  // s: the SDK's recorder is known to lock up
+// Of the first image before the sequence moves.
+constexpr std::chrono::milliseconds kStillTime(500);
+constexpr int kWholeSequence = 1000000;
 
 void play() {
   const std::string path = std::getenv("MIVO_VIRTUAL_XTION");
   std::ostringstream text;
   text << std::ifstream(path).rdbuf();
-  const auto now = std::chrono::duration_cast<std::chrono::nanoseconds>(
-                       std::chrono::system_clock::now().time_since_epoch())
-                       .count();
-  std::ofstream(path + ".new") << text.str() << "start " << now + kStillTime << '\n';
+  std::this_thread::sleep_for(kStillTime);
+  std::ofstream(path + ".new") << text.str() << "until " << kWholeSequence << '\n';
   std::rename((path + ".new").c_str(), path.c_str());
 }
 

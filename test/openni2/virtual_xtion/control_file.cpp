@@ -29,7 +29,7 @@ const std::map<std::string, std::function<void(Control&, std::istream&)>>& field
       {"registration", field(&Control::registration)},
       {"settings", field(&Control::settings)},
       {"deaf", field(&Control::deaf)},
-      {"start", field(&Control::start)},
+      {"until", field(&Control::until)},
       {"pace", field(&Control::pace)},
       {"rate", field(&Control::rate)},
       {"drop_every", field(&Control::drop_every)},

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <string>
 
 namespace virtual_xtion {
@@ -20,7 +20,7 @@ struct Control {
   bool registration = true;    ///< can register depth to colour
   bool settings = true;        ///< has exposure, gain and white balance
   bool deaf = false;           ///< ignores settings for good
-  std::int64_t start = 0;      ///< host time, ns, from which the sequence plays; 0: first image
+  std::size_t until = 0;       ///< image up to which the sequence plays, each taken once
   int pace = 1;                ///< the sequence, and with it the camera, is slower by this
   int rate = 30;               ///< Hz that get through USB; images in between are lost
   int drop_every = 0;          ///< every n-th image is lost; 0: none

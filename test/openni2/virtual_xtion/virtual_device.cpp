@@ -179,7 +179,7 @@ void VirtualDevice::run() {
       take(tick, control_.get());
       deliverDue(hostNow());
       // Between two images, so that none is late because it has to be decoded.
-      sequence_.images(std::min(last_frame_ + 1, sequence_.size() - 1));
+      sequence_.images(std::min(last_frame_.value_or(0) + 1, sequence_.size() - 1));
       // A machine that was away for longer than an image takes loses the ones in between.
       tick = std::max(tick + 1, tickAt(hostNow()) + 1);
     }
@@ -192,26 +192,31 @@ bool VirtualDevice::isLost(std::int64_t tick, const Control& control) const {
          (control.drop_every > 0 && tick % control.drop_every == 0);
 }
 
+std::size_t VirtualDevice::nextFrame(const Control& control) const {
+  if (!last_frame_) {
+    return 0;
+  }
+  return std::max(*last_frame_, std::min({*last_frame_ + 1, control.until, sequence_.size() - 1}));
+}
+
 // Takes the image of one tick: called with mutex_ held.
 void VirtualDevice::take(std::int64_t tick, const Control& control) {
-  const std::int64_t start_tick = tickAt(control.start) + 1;
-  const std::int64_t last = static_cast<std::int64_t>(sequence_.size()) - 1;
-  const auto frame = static_cast<std::size_t>(
-      control.start == 0 ? 0
-                         : std::clamp<std::int64_t>((tick - start_tick) / control.pace, 0, last));
+  if (isLost(tick, control)) {
+    return;
+  }
+  const std::size_t frame = nextFrame(control);
   const ServedSequence::Images& images = sequence_.images(frame);
-  last_frame_ = frame;
   const int index = static_cast<int>(tick - tickAt(power_on_));
   std::exponential_distribution<double> delay(1.0);
   for (const auto& [sensor, stream] : streams_) {
     const bool is_color = sensor == ONI_SENSOR_COLOR;
-    if (!stream->isRunning() || isLost(tick, control) ||
-        (is_color ? control.color_stalls : control.depth_stalls)) {
+    if (!stream->isRunning() || (is_color ? control.color_stalls : control.depth_stalls)) {
       continue;
     }
     const std::int64_t host = timeOf(tick) + (is_color || synchronised_ ? 0 : kOutOfStep);
     const std::uint64_t stamp = deviceTime(host, control);
     const double late = control.jitter * delay(random_) + (is_color ? 0.0 : control.depth_delay);
+    last_frame_ = frame;
     under_way_.emplace(host + std::llround(late * static_cast<double>(kSecond)),
                        Delivery{sensor, seen(sensor, *stream, images), stamp, index});
     if (is_color) {

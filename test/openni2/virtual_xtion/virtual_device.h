@@ -10,6 +10,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <random>
 #include <string>
 #include <thread>
@@ -60,6 +61,7 @@ class VirtualDevice : public oni::driver::DeviceBase {
 
   void run();
   void take(std::int64_t tick, const Control& control);
+  std::size_t nextFrame(const Control& control) const;
   bool isLost(std::int64_t tick, const Control& control) const;
   cv::Mat seen(OniSensorType sensor, VirtualStream& stream, const ServedSequence::Images& images);
   std::uint64_t deviceTime(std::int64_t host, const Control& control) const;
@@ -85,7 +87,7 @@ class VirtualDevice : public oni::driver::DeviceBase {
   std::multimap<std::int64_t, Delivery> under_way_;
   std::mt19937 random_{1};
   std::ofstream truth_;
-  std::size_t last_frame_ = 0;  ///< image of the sequence that was taken last
+  std::optional<std::size_t> last_frame_;  ///< image of the sequence that was taken last
   std::thread thread_;
 };
 

@@ -29,9 +29,9 @@ class Control:
                 file.write(f"{name} {value}\n")
         os.rename(self.path + ".new", self.path)
 
-    def play(self, delay=0.5):
-        """The sequence starts to move after this many seconds."""
-        self.set(start=int((time.time() + delay) / NANO))
+    def play(self, until):
+        """The sequence plays up to this image, each taken once."""
+        self.set(until=until)
 
 
 class Truth:
@@ -139,6 +139,11 @@ class Counter:
         with self.condition:
             self.messages.append(message)
             self.condition.notify_all()
+
+    def stamps(self):
+        """Of the messages so far."""
+        with self.condition:
+            return {message.header.stamp for message in self.messages}
 
     def wait_more(self, count, timeout):
         """True once so many more have come."""
