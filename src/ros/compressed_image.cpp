@@ -55,7 +55,12 @@ cv::Mat decode(const sensor_msgs::CompressedImage& message, std::size_t offset) 
   }
   const cv::Mat encoded(1, static_cast<int>(data.size() - offset), CV_8UC1,
                         const_cast<std::uint8_t*>(data.data()) + offset);
-  cv::Mat image = cv::imdecode(encoded, cv::IMREAD_UNCHANGED);
+  cv::Mat image;
+  try {
+    image = cv::imdecode(encoded, cv::IMREAD_UNCHANGED);
+  } catch (const cv::Exception&) {
+    // A size beyond what it wants to decode; other damage gives an empty image.
+  }
   if (image.empty()) {
     throw Error("compressed image of format '" + message.format + "' is damaged");
   }

@@ -238,5 +238,16 @@ TEST(CompressedImageTest, TruncatedAndForeignDataAreRefused) {
                "has not 16 bits");
 }
 
+TEST(CompressedImageTest, ADamagedSizeIsRefused) {
+  sensor_msgs::CompressedImage message = compress(pattern(CV_8UC1), ".jpg", "jpeg");
+  // Behind the mark: two bytes of length, one of precision, then height and width.
+  const std::uint8_t frame_header[] = {0xff, 0xc0};
+  const auto at = std::search(message.data.begin(), message.data.end(), std::begin(frame_header),
+                              std::end(frame_header));
+  ASSERT_LT(9, message.data.end() - at);
+  std::fill(at + 5, at + 9, std::uint8_t{0xfe});  // more pixels than OpenCV agrees to decode
+  EXPECT_ERROR(toGreyImage(message), "damaged");
+}
+
 }  // namespace
 }  // namespace mivo
