@@ -109,24 +109,34 @@ CameraPublisher::CameraPublisher(ros::NodeHandle node, const CameraParameters& p
   advertise(std::move(node), registered_);
 }
 
+CameraPublisher::~CameraPublisher() {
+  const std::lock_guard<std::mutex> lock(gate_->mutex);
+  gate_->is_open = false;
+}
+
 void CameraPublisher::advertise(ros::NodeHandle node, bool registration) {
   image_transport::ImageTransport transport(node);
-  const auto image_change = [this](const image_transport::SingleSubscriberPublisher&) {
-    updateDemand();
+  const auto change = [this, gate = gate_] {
+    const std::lock_guard<std::mutex> lock(gate->mutex);
+    if (gate->is_open) {
+      updateDemand();
+    }
   };
-  const auto info_change = [this](const ros::SingleSubscriberPublisher&) { updateDemand(); };
+  const auto image_change = [change](const image_transport::SingleSubscriberPublisher&) {
+    change();
+  };
+  const auto info_change = [change](const ros::SingleSubscriberPublisher&) { change(); };
   const auto open = [&](const std::string& topic) {
     return transport.advertiseCamera(topic, kQueueSize, image_change, image_change, info_change,
                                      info_change);
   };
-  // Somebody may subscribe before both publishers exist: updateDemand waits for the mutex.
-  const std::lock_guard<std::mutex> lock(demand_mutex_);
+  // Somebody may subscribe before both publishers exist: that waits for the gate.
+  const std::lock_guard<std::mutex> lock(gate_->mutex);
   color_publisher_ = open("rgb/image_raw");
   depth_publisher_ = open(registration ? "depth_registered/image_raw" : "depth/image_raw");
 }
 
 void CameraPublisher::updateDemand() {
-  const std::lock_guard<std::mutex> lock(demand_mutex_);
   StreamDemand demand;
   demand.color = color_publisher_.getNumSubscribers() > 0;
   demand.depth = depth_publisher_.getNumSubscribers() > 0;

@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <string>
 
@@ -34,6 +35,9 @@ class CameraPublisher {
   /// `on_demand` is called when subscribers come or go.
   CameraPublisher(ros::NodeHandle node, const CameraParameters& parameters,
                   std::function<void(const StreamDemand&)> on_demand);
+  ~CameraPublisher();
+  CameraPublisher(const CameraPublisher&) = delete;
+  CameraPublisher& operator=(const CameraPublisher&) = delete;
 
   /// From the camera's thread. @param stamp host time, ns
   void add(const ImageView& image, std::int64_t stamp);
@@ -47,7 +51,7 @@ class CameraPublisher {
   using Pairer = FramePairer<sensor_msgs::ImagePtr>;
 
   void advertise(ros::NodeHandle node, bool registration);
-  void updateDemand();
+  void updateDemand();  // called behind the gate
   void publishPair(Pairer::Entry& color, Pairer::Entry& depth);
   void publish(StreamKind kind, const sensor_msgs::ImagePtr& image);
 
@@ -58,7 +62,13 @@ class CameraPublisher {
   CameraCalibration color_calibration_;
   std::unique_ptr<CameraCalibration> depth_calibration_;  ///< without registration only
 
-  std::mutex demand_mutex_;
+  /// What callbacks of subscribers pass: image_transport does not wait for those under way when a
+  /// publisher goes, so that they have a part in it.
+  struct Gate {
+    std::mutex mutex;
+    bool is_open = true;
+  };
+  std::shared_ptr<Gate> gate_ = std::make_shared<Gate>();
   image_transport::CameraPublisher color_publisher_;
   image_transport::CameraPublisher depth_publisher_;
   std::atomic<bool> color_wanted_{false};
