@@ -3,8 +3,6 @@
 
 #include <ros/console.h>
 
-#include <cmath>
-
 #include "mivo/core/cpu_clock.h"
 #include "mivo/core/error.h"
 #include "mivo/ros/camera_conversion.h"
@@ -14,14 +12,11 @@
 namespace mivo {
 namespace {
 
-constexpr double kTimeJump = 1.0;          // s: time was set back, the frame is not merely late
-constexpr int kStaleFramesOfAJump = 10;    // as many late frames in a row are a jump too
-constexpr double kClockDifference = 10.0;  // s between stamps and clock that no latency explains
-constexpr int kFramesOffClock = 10;        // in a row, before it is said
-constexpr double kPlausibleDepth[] = {0.1, 30.0};  // m, of the median
-constexpr double kLogPeriod = 5.0;                 // s between messages of the same kind
-constexpr std::size_t kLongBacklog = 300;          // frames
-constexpr double kDiagnosticsPeriod = 1.0;         // s
+constexpr double kTimeJump = 1.0;           // s: time was set back, the frame is not merely late
+constexpr int kStaleFramesOfAJump = 10;     // as many late frames in a row are a jump too
+constexpr double kLogPeriod = 5.0;          // s between messages of the same kind
+constexpr std::size_t kLongBacklog = 300;   // frames
+constexpr double kDiagnosticsPeriod = 1.0;  // s
 constexpr double kMaxDrain = 10.0;  // s; roslaunch ends a node by force 15 s after asking it to
 
 ros::NodeHandle withQueue(ros::NodeHandle node, ros::CallbackQueue& queue) {
@@ -37,6 +32,7 @@ OdometryNode::OdometryNode(const ros::NodeHandle& node, const ros::NodeHandle& p
       diagnostics_(diagnostics),
       frames_(parameters_.drop_frames ? FrameQueue<ImagePair>::Policy::kNewest
                                       : FrameQueue<ImagePair>::Policy::kAll),
+      warnings_(parameters_),
       session_(readParameters(private_node)),
       trajectory_(parameters_),
       publisher_(private_node, parameters_),
@@ -98,7 +94,7 @@ void OdometryNode::process(const ImagePair& pair) {
     const double begin = threadMilliseconds();
     const MessageFrame input = toFrame(pair, rectified_);
     track(pair, input, threadMilliseconds() - begin);
-  } catch (const Error& error) {
+  } catch (const std::exception& error) {  // whatever it is: the manager's other nodelets go on
     skip(error.what());
   }
 }
@@ -134,7 +130,7 @@ void OdometryNode::track(const ImagePair& pair, const MessageFrame& input, doubl
   const ros::Time stamp = pair.colour->header.stamp;
   const std::optional<Eigen::Isometry3d> T_base_camera =
       transforms_.baseCamera(pair.colour->header.frame_id, stamp);
-  warnAboutMessages(pair, input);
+  warnings_.lookAtFrames(pair, transforms_);
 
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!acceptStamp(stamp)) {
@@ -156,7 +152,9 @@ void OdometryNode::track(const ImagePair& pair, const MessageFrame& input, doubl
   status.frames = num_frames_;
   status.conversion_cpu_ms = conversion_ms;
   publish(pair, status, T_base_camera);
-  diagnostics_.addFrame(status, sampleDepth(input.frame));
+  const DepthSample depth = sampleDepth(input.frame);
+  warnings_.lookAtDepth(depth);
+  diagnostics_.addFrame(status, depth);
 }
 
 std::optional<Eigen::Isometry3d> OdometryNode::guessedStart(
@@ -216,51 +214,6 @@ void OdometryNode::publishOdometry(const ros::Time& stamp, const Eigen::Isometry
   std::optional<Eigen::Isometry3d> T_guess_base;
   if (!parameters_.guess_frame_id.empty()) T_guess_base = transforms_.guessBase(stamp);
   publisher_.publish(odometry, stamp, T_guess_base);
-}
-
-void OdometryNode::warnAboutClock(double age) {
-  // A single frame may come before the clock that goes with it.
-  const bool is_off = std::abs(age) > kClockDifference && !ros::Time::now().isZero();
-  frames_off_clock_ = is_off ? frames_off_clock_ + 1 : 0;
-  if (frames_off_clock_ < kFramesOffClock || has_warned_of_clock_) return;
-  has_warned_of_clock_ = true;
-  ROS_WARN(
-      "the images are %.0f s %s than the clock; for a bag set /use_sim_time to true before the "
-      "nodes "
-      "start and play it with --clock",
-      std::abs(age), age > 0.0 ? "older" : "newer");
-}
-
-void OdometryNode::warnAboutMessages(const ImagePair& pair, const MessageFrame& input) {
-  const std_msgs::Header& colour = pair.colour->header;
-  warnAboutClock((ros::Time::now() - colour.stamp).toSec());
-  const std::string& depth_frame = pair.depth->header.frame_id;
-  if (depth_frame != colour.frame_id && !has_warned_of_frames_) {
-    has_warned_of_frames_ = true;
-    ROS_WARN(
-        "colour is in the frame %s, depth in %s: the depth has to be registered to the colour "
-        "camera (depth_registration of the driver, or depth_image_proc/register)",
-        colour.frame_id.c_str(), depth_frame.c_str());
-  }
-  const double median = sampleDepth(input.frame).median;
-  if (median > 0.0 && (median < kPlausibleDepth[0] || median > kPlausibleDepth[1]) &&
-      !has_warned_of_depth_) {
-    has_warned_of_depth_ = true;
-    ROS_WARN(
-        "the median depth is %g m: 16UC1 is taken as millimetres, 32FC1 as metres; does the "
-        "driver use another unit?",
-        median);
-  }
-  if (parameters_.publish_tf && parameters_.guess_frame_id.empty() && !has_warned_of_parent_) {
-    const std::string parent = transforms_.parentOfBase();
-    if (!parent.empty() && parent != parameters_.odom_frame) {
-      has_warned_of_parent_ = true;
-      ROS_WARN(
-          "%s has another parent in tf, %s: a frame cannot have two; set publish_tf to false, or "
-          "guess_frame_id to %s",
-          parameters_.base_frame.c_str(), parent.c_str(), parent.c_str());
-    }
-  }
 }
 
 void OdometryNode::logState(const TrackingResult& result) {

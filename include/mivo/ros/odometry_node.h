@@ -13,6 +13,7 @@
 #include "mivo/ros/display_publisher.h"
 #include "mivo/ros/frame_input.h"
 #include "mivo/ros/frame_queue.h"
+#include "mivo/ros/input_warnings.h"
 #include "mivo/ros/message_frame.h"
 #include "mivo/ros/node_parameters.h"
 #include "mivo/ros/odometry_diagnostics.h"
@@ -40,8 +41,6 @@ class OdometryNode : private OdometryActions {
   void work();
   void process(const ImagePair& pair);
   bool acceptStamp(const ros::Time& stamp);
-  void warnAboutClock(double age);
-  void warnAboutMessages(const ImagePair& pair, const MessageFrame& input);
   std::optional<Eigen::Isometry3d> guessedStart(const ros::Time& stamp,
                                                 const Eigen::Isometry3d& T_base_camera);
   void track(const ImagePair& pair, const MessageFrame& input, double conversion_ms);
@@ -69,6 +68,7 @@ class OdometryNode : private OdometryActions {
   FrameQueue<ImagePair> frames_;
   std::atomic<std::uint64_t> skipped_{0};
   std::atomic<bool> paused_{false};
+  InputWarnings warnings_;  // the worker's own
 
   std::mutex mutex_;  // guards the tracker and what belongs to it, from here to the empty line
   TrackingSession session_;
@@ -81,12 +81,6 @@ class OdometryNode : private OdometryActions {
   std::uint64_t num_frames_ = 0;
   int stale_frames_ = 0;  // in a row
   TrackingState last_state_ = TrackingState::kInitialising;
-
-  int frames_off_clock_ = 0;  // in a row
-  bool has_warned_of_clock_ = false;
-  bool has_warned_of_frames_ = false;
-  bool has_warned_of_depth_ = false;
-  bool has_warned_of_parent_ = false;
 
   TransformSource transforms_;
   std::unique_ptr<FrameInput> input_;

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "mivo/ros/input_warnings.h"
+
+#include <ros/console.h>
+
+#include <cmath>
+#include <string>
+
+namespace mivo {
+namespace {
+
+constexpr double kClockDifference = 10.0;  // s between stamps and clock that no latency explains
+constexpr int kFramesOffClock = 10;        // in a row, before it is said
+constexpr double kPlausibleDepth[] = {0.1, 30.0};  // m, of the median
+
+}  // namespace
+
+void InputWarnings::lookAtClock(double age) {
+  // A single frame may come before the clock that goes with it.
+  const bool is_off = std::abs(age) > kClockDifference && !ros::Time::now().isZero();
+  frames_off_clock_ = is_off ? frames_off_clock_ + 1 : 0;
+  if (frames_off_clock_ < kFramesOffClock || has_warned_of_clock_) return;
+  has_warned_of_clock_ = true;
+  ROS_WARN(
+      "the images are %.0f s %s than the clock; for a bag set /use_sim_time to true before the "
+      "nodes "
+      "start and play it with --clock",
+      std::abs(age), age > 0.0 ? "older" : "newer");
+}
+
+void InputWarnings::lookAtFrames(const ImagePair& pair, TransformSource& transforms) {
+  const std_msgs::Header& colour = pair.colour->header;
+  lookAtClock((ros::Time::now() - colour.stamp).toSec());
+  const std::string& depth_frame = pair.depth->header.frame_id;
+  if (depth_frame != colour.frame_id && !has_warned_of_frames_) {
+    has_warned_of_frames_ = true;
+    ROS_WARN(
+        "colour is in the frame %s, depth in %s: the depth has to be registered to the colour "
+        "camera (depth_registration of the driver, or depth_image_proc/register)",
+        colour.frame_id.c_str(), depth_frame.c_str());
+  }
+  lookAtParent(transforms);
+}
+
+void InputWarnings::lookAtParent(TransformSource& transforms) {
+  if (!parameters_.publish_tf || !parameters_.guess_frame_id.empty() || has_warned_of_parent_) {
+    return;
+  }
+  const std::string parent = transforms.parentOfBase();
+  if (parent.empty() || parent == parameters_.odom_frame) return;
+  has_warned_of_parent_ = true;
+  ROS_WARN(
+      "%s has another parent in tf, %s: a frame cannot have two; set publish_tf to false, or "
+      "guess_frame_id to %s",
+      parameters_.base_frame.c_str(), parent.c_str(), parent.c_str());
+}
+
+void InputWarnings::lookAtDepth(const DepthSample& depth) {
+  if (depth.median <= 0.0 || has_warned_of_depth_ ||
+      (depth.median >= kPlausibleDepth[0] && depth.median <= kPlausibleDepth[1])) {
+    return;
+  }
+  has_warned_of_depth_ = true;
+  ROS_WARN(
+      "the median depth is %g m: 16UC1 is taken as millimetres, 32FC1 as metres; does the "
+      "driver use another unit?",
+      depth.median);
+}
+
+}  // namespace mivo
