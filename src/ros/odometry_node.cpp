@@ -123,7 +123,15 @@ void OdometryNode::restartAfterJump(const ros::Time& stamp) {
   ROS_WARN("time was set back by %.3f s (a looped bag?): tracking starts anew at the last pose",
            (last_stamp_ - stamp).toSec());
   session_.restart();
-  trajectory_.startAnew();
+  startTrajectory();
+}
+
+void OdometryNode::startTrajectory() {
+  try {
+    trajectory_.startAnew();
+  } catch (const Error& error) {  // poses are kept all the same, as in record()
+    ROS_ERROR("%s", error.what());
+  }
 }
 
 void OdometryNode::track(const ImagePair& pair, const MessageFrame& input, double conversion_ms) {
@@ -235,7 +243,7 @@ void OdometryNode::reset() {
   session_.reset();
   T_odom_world_.reset();
   num_frames_ = 0;
-  trajectory_.startAnew();
+  startTrajectory();
   publisher_.clearPath();
   display_.clear();
   ROS_INFO("reset");

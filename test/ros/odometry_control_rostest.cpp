@@ -8,6 +8,8 @@
 #include <std_srvs/Trigger.h>
 #include <tf2_ros/transform_broadcaster.h>
 
+#include <fstream>
+
 #include "mivo/core/parameters.h"
 #include "mivo/core/se3.h"
 #include "mivo/io/trajectory_io.h"
@@ -114,6 +116,24 @@ TEST_F(NodeTest, TrajectoryIsSavedAndWrittenAsItGrows) {
   call.request.force = 1;
   ASSERT_TRUE(ros::service::call(privateName("save_trajectory"), call));
   EXPECT_TRUE(call.response.success);
+}
+
+TEST_F(NodeTest, AResetIsWholeThoughItsTrajectoryCannotBeWritten) {
+  const TemporaryFolder folder;
+  publishCameraOnBase();
+  setParameter("trajectory_folder", folder.path());
+  setParameter("trajectory_file", "live.txt");
+  load();  // its reset began the second file
+  for (int i = 0; i < 5; ++i) track(i);
+  std::ofstream(folder / "live_3.txt") << "of another run\n";
+  std_srvs::Trigger reset;
+  ASSERT_TRUE(ros::service::call(privateName("reset"), reset));
+  EXPECT_TRUE(reset.response.success) << reset.response.message;
+  EXPECT_TRUE(waitFor([&] { return !paths_.empty() && paths_.back().poses.empty(); }));
+  track(5);
+  ASSERT_TRUE(waitFor([&] { return isDone(5); }));
+  EXPECT_LT(poseError(5, Eigen::Isometry3d::Identity()), 1e-9);
+  EXPECT_EQ("of another run\n", contentOf(folder / "live_3.txt"));
 }
 
 TEST_F(NodeTest, LiveChangesAreTakenWholeOrNotAtAll) {

@@ -49,6 +49,7 @@ class OdometryNode : private OdometryActions {
   void publishOdometry(const ros::Time& stamp, const Eigen::Isometry3d& T_base_camera);
   void record(const TrackingResult& result);
   void restartAfterJump(const ros::Time& stamp);
+  void startTrajectory();
   void skip(const std::string& reason);
   void logState(const TrackingResult& result);
   void publishDiagnostics();
