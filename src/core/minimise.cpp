@@ -26,11 +26,16 @@ QuadraticModel linearise(const std::vector<CostTerm*>& terms, int iteration) {
   return sum;
 }
 
+/// Inverse composition (Eq. 5).
+Eigen::Isometry3d moved(const Eigen::Isometry3d& T_live_ref, const Vector6& step) {
+  return orthonormalised(T_live_ref * retract(step).inverse());
+}
+
 }  // namespace
 
 Minimum minimise(const std::vector<CostTerm*>& terms, const Eigen::Isometry3d& T_live_ref,
                  double length, const Matrix6& pixel_motion, const Parameters& parameters,
-                 double tolerance) {
+                 double tolerance, double trusted_step_pixels) {
   const double min_step_pixels = tolerance * parameters.min_step_pixels;
   Minimum minimum;
   minimum.T_live_ref = T_live_ref;
@@ -49,12 +54,19 @@ Minimum minimise(const std::vector<CostTerm*>& terms, const Eigen::Isometry3d& T
     const double pixels = std::sqrt(std::max(0.0, newton.step.dot(pixel_motion * newton.step)));
     if (0.5 * newton.promised_gain <= enough || !(pixels > 0.0)) break;
 
+    if (newton.is_convex && pixels < trusted_step_pixels) {
+      // The model is good enough so near to the minimum: nobody asks what such a step gains.
+      minimum.T_live_ref = moved(minimum.T_live_ref, newton.step);
+      minimum.cost = model.cost - 0.5 * newton.promised_gain;
+      ++minimum.iterations;
+      break;
+    }
+
     double length_factor = std::min(1.0, parameters.max_step_pixels / pixels);
     bool is_accepted = false;
     const double start = threadMilliseconds();
     for (int halving = 0; halving <= parameters.line_search_halvings; ++halving) {
-      const Eigen::Isometry3d candidate =
-          orthonormalised(minimum.T_live_ref * retract(length_factor * newton.step).inverse());
+      const Eigen::Isometry3d candidate = moved(minimum.T_live_ref, length_factor * newton.step);
       const double cost = evaluate(terms, candidate);
       ++minimum.evaluations;
       is_evaluated_there = false;
@@ -76,9 +88,7 @@ Minimum minimise(const std::vector<CostTerm*>& terms, const Eigen::Isometry3d& T
     minimum.line_search_milliseconds += threadMilliseconds() - start;
     if (!is_accepted) break;
     ++minimum.iterations;
-    if (length_factor * pixels < min_step_pixels || model.cost - minimum.cost < enough) {
-      break;
-    }
+    if (length_factor * pixels < min_step_pixels || model.cost - minimum.cost < enough) break;
   }
   if (!is_evaluated_there) minimum.cost = evaluate(terms, minimum.T_live_ref);
   return minimum;

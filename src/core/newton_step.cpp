@@ -26,6 +26,7 @@ NewtonStep newtonStep(const QuadraticModel& model, double length, double min_cur
   const Vector6 inverse = scale.cwiseInverse();
   result.hessian = inverse.asDiagonal() * (axes * guarded.asDiagonal() * axes.transpose()) *
                    inverse.asDiagonal();
+  result.is_convex = curvature.minCoeff() >= bound;
   result.condition = curvature.minCoeff() / strongest;
   return result;
 }

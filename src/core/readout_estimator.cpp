@@ -5,7 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "mivo/core/robust_weight.h"
+#include "mivo/core/kernels/kernels.h"
+#include "mivo/core/recycled.h"
 
 namespace mivo {
 namespace {
@@ -29,6 +30,11 @@ constexpr double kStepLimit = 0.2;
 constexpr double kMinGain = 0.1;
 constexpr double kIgnored = 0.01;
 constexpr double kGlobalBelow = 0.1;
+// So many products are summed in floats, then in doubles.
+constexpr std::size_t kFloatSums = 128;
+
+/// Of the pose, the read-out time and the residual.
+using NormalEquations = Eigen::Matrix<double, 8, 8>;
 
 }  // namespace
 
@@ -78,25 +84,34 @@ ReadoutMeasurement measureReadout(const ReferencePoints& points, const Residuals
   Vector6 live;
   live << R.transpose() * (velocities.live.tail<3>().cross(t) + velocities.live.head<3>()),
       R.transpose() * velocities.live.tail<3>();
-  using Matrix7 = Eigen::Matrix<double, 7, 7>;
-  using Vector7 = Eigen::Matrix<double, 7, 1>;
-  Matrix7 H = Matrix7::Zero();
-  Vector7 b = Vector7::Zero();
+  Recycled<std::vector<float>> weights;
+  weights->resize(points.size());
+  kernels::active().robustWeights(RobustWeight::kTukey, static_cast<float>(scale),
+                                  residuals.value.data(), residuals.visible.data(), points.size(),
+                                  weights->data());
+  NormalEquations sum = NormalEquations::Zero();
   const auto inverse_scale = static_cast<float>(1.0 / scale);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (residuals.visible[i] == 0.0F) continue;
-    const float u = residuals.value[i] * inverse_scale;
-    const auto weight = static_cast<double>(robustLoss(RobustWeight::kTukey, u).weight);
-    Vector7 J;
-    for (std::size_t k = 0; k < 6; ++k) {
-      J[static_cast<int>(k)] = static_cast<double>(points.jacobian[k][i] * inverse_scale);
+  const auto inverse_height = static_cast<float>(1.0 / height);
+  const Eigen::Matrix<float, 6, 1> v_live = live.cast<float>();
+  const Eigen::Matrix<float, 6, 1> v_keyframe = velocities.keyframe.cast<float>();
+  for (std::size_t begin = 0; begin < points.size(); begin += kFloatSums) {
+    Eigen::Matrix<float, 8, 8> part = Eigen::Matrix<float, 8, 8>::Zero();
+    const std::size_t end = std::min(points.size(), begin + kFloatSums);
+    for (std::size_t i = begin; i < end; ++i) {
+      // Pose, read-out time and residual.
+      Eigen::Matrix<float, 8, 1> J;
+      for (std::size_t k = 0; k < 6; ++k) J[static_cast<int>(k)] = points.jacobian[k][i];
+      const float tau_live = live_rows[i] * inverse_height - 0.5F;
+      const float tau_keyframe = static_cast<float>(points.pixels[i].y) * inverse_height - 0.5F;
+      J[6] = tau_keyframe * J.head<6>().dot(v_keyframe) - tau_live * J.head<6>().dot(v_live);
+      J[7] = residuals.value[i];
+      part.noalias() += ((*weights)[i] * J) * J.transpose();
     }
-    const double tau_live = static_cast<double>(live_rows[i]) / height - 0.5;
-    const double tau_keyframe = points.pixels[i].y / height - 0.5;
-    J[6] = tau_keyframe * J.head<6>().dot(velocities.keyframe) - tau_live * J.head<6>().dot(live);
-    H += weight * J * J.transpose();
-    b += weight * static_cast<double>(u) * J;
+    sum += part.cast<double>();
   }
+  sum *= static_cast<double>(inverse_scale * inverse_scale);
+  const auto H = sum.topLeftCorner<7, 7>();
+  const auto b = sum.col(7).head<7>();
   ReadoutMeasurement measurement;
   const Eigen::LDLT<Matrix6> pose(H.topLeftCorner<6, 6>());
   if (pose.info() != Eigen::Success || !pose.isPositive()) return measurement;

@@ -31,11 +31,20 @@ std::uint32_t stepOf(float residual) {
   return leading < kFirst ? 0U : std::min(leading - kFirst, kSteps - 1U);
 }
 
+/// Least magnitude of a step.
+float startOf(std::uint32_t step) {
+  const std::uint32_t bits = (step + kFirst) << kShift;
+  float magnitude = 0.0F;
+  std::memcpy(&magnitude, &bits, sizeof(magnitude));
+  return magnitude;
+}
+
 // So many residuals tell the scale to two hundredths; of more, only every second, third, ... is
 // asked.
 constexpr std::size_t kEnoughForScale = 4096;
 
-/// Median of the magnitudes of the visible residuals, 0 when there is none among those asked.
+/// Median of the magnitudes of the visible residuals to within half a step, a 64th of it; 0 when
+/// there is none among those asked.
 float medianMagnitude(const Residuals& residuals) {
   std::array<std::uint32_t, kSteps> counts{};
   const std::size_t n = residuals.value.size();
@@ -51,16 +60,11 @@ float medianMagnitude(const Residuals& residuals) {
   std::size_t rank = num_visible / 2;
   std::uint32_t step = 0;
   while (rank >= counts[step]) rank -= counts[step++];
-  Recycled<std::vector<float>> candidates;
-  candidates->clear();
-  for (std::size_t i = 0; i < n; i += stride) {
-    if (residuals.visible[i] != 0.0F && stepOf(residuals.value[i]) == step) {
-      candidates->push_back(std::abs(residuals.value[i]));
-    }
-  }
-  const auto middle = candidates->begin() + static_cast<std::ptrdiff_t>(rank);
-  std::nth_element(candidates->begin(), middle, candidates->end());
-  return *middle;
+  if (step == 0) return 0.0F;
+  // Those within a step are taken to be spread evenly.
+  const float share = (static_cast<float>(rank) + 0.5F) / static_cast<float>(counts[step]);
+  const float low = startOf(step);
+  return low + share * (startOf(step + 1) - low);
 }
 
 /// Largest of numbers that are not negative, 0 of none. Eight at a time: one after the other each
@@ -93,6 +97,18 @@ QuadraticModel toModel(const std::vector<kernels::LeastSquaresSums>& parts, doub
   return model;
 }
 
+/// What the losses' curvatures are of the weights, at least as much as for Gaussian residuals: what
+/// is far out may yet come back.
+double curvatureShare(const std::vector<kernels::LeastSquaresSums>& parts, RobustWeight kind) {
+  double weight = 0.0;
+  double curvature = 0.0;
+  for (const kernels::LeastSquaresSums& part : parts) {
+    weight += part.weight;
+    curvature += part.curvature;
+  }
+  return weight > 0.0 ? std::max(curvature / weight, gaussianCurvature(kind)) : 1.0;
+}
+
 }  // namespace
 
 RobustSum::RobustSum(RobustWeight kind, double min_scale, const Parameters& parameters)
@@ -119,7 +135,8 @@ double RobustSum::cost(const Residuals& residuals) {
   });
   double sum = 0.0;
   for (const double part : *sums) sum += part;
-  return sum * static_cast<double>(n) / static_cast<double>(residuals.num_visible);
+  cost_ = sum * static_cast<double>(n) / static_cast<double>(residuals.num_visible);
+  return cost_;
 }
 
 int RobustSum::scoreCovariance(const Residuals& residuals,
@@ -127,34 +144,37 @@ int RobustSum::scoreCovariance(const Residuals& residuals,
                                const std::vector<float>& u, const std::vector<float>& v,
                                double block, Matrix6& covariance) const {
   struct Block {
-    Vector6 score = Vector6::Zero();
-    int points = 0;
+    float score[6];
+    int points;
   };
   covariance.setZero();
   if (residuals.num_visible == 0 || scale_ == 0.0) return 0;
   const std::size_t n = residuals.value.size();
+  Recycled<std::vector<float>> weights;
+  weights->resize(n);
+  kernels::active().robustWeights(kind_, static_cast<float>(scale_), residuals.value.data(),
+                                  residuals.visible.data(), n, weights->data());
   const auto per_pixel = static_cast<float>(1.0 / block);
-  const auto blockOf = [=](float pixel) { return static_cast<std::size_t>(pixel * per_pixel); };
-  const std::size_t columns = blockOf(largest(u)) + 1;
+  const auto blockOf = [=](float pixel) { return static_cast<int>(pixel * per_pixel); };
+  const int columns = blockOf(largest(u)) + 1;
   Recycled<std::vector<Block>> blocks;
-  blocks->assign(columns * (blockOf(largest(v)) + 1), Block{});
-  const auto inverse_scale = static_cast<float>(1.0 / scale_);
+  blocks->assign(static_cast<std::size_t>(columns * (blockOf(largest(v)) + 1)), Block{});
   for (std::size_t i = 0; i < n; ++i) {
-    if (residuals.visible[i] == 0.0F) continue;
-    Block& here = (*blocks)[blockOf(v[i]) * columns + blockOf(u[i])];
-    const float scaled = residuals.value[i] * inverse_scale;
-    const float influence = robustLoss(kind_, scaled).weight * scaled * inverse_scale;
-    for (std::size_t k = 0; k < 6; ++k) {
-      here.score[static_cast<int>(k)] += static_cast<double>(influence * jacobian[k][i]);
-    }
-    ++here.points;
+    // What is not visible adds nothing to the first block.
+    Block& here = (*blocks)[static_cast<std::size_t>(blockOf(v[i]) * columns + blockOf(u[i]))];
+    const float influence = (*weights)[i] * residuals.value[i];
+    for (std::size_t k = 0; k < 6; ++k) here.score[k] += influence * jacobian[k][i];
+    here.points += residuals.visible[i] != 0.0F ? 1 : 0;
   }
   int count = 0;
-  const double factor = static_cast<double>(n) / static_cast<double>(residuals.num_visible);
+  const double factor =
+      static_cast<double>(n) / (static_cast<double>(residuals.num_visible) * scale_ * scale_);
   for (const Block& here : *blocks) {
     if (here.points == 0) continue;
     ++count;
-    covariance += factor * factor * here.score * here.score.transpose();
+    const Vector6 score =
+        factor * Eigen::Map<const Eigen::Matrix<float, 6, 1>>(here.score).cast<double>();
+    covariance += score * score.transpose();
   }
   return count;
 }
@@ -167,7 +187,10 @@ QuadraticModel RobustSum::linearise(const Residuals& residuals,
     return nothing;
   }
   // At the first iteration cost() has just estimated it at this pose.
-  if (iteration > 0 && iteration < scale_iterations_) estimateScale(residuals);
+  if (iteration > 0 && iteration < scale_iterations_) {
+    estimateScale(residuals);
+    cost(residuals);
+  }
   const std::size_t n = residuals.value.size();
   Recycled<std::vector<kernels::LeastSquaresSums>> parts;
   parts->resize(numChunks(n));
@@ -181,7 +204,10 @@ QuadraticModel RobustSum::linearise(const Residuals& residuals,
   QuadraticModel model =
       toModel(*parts, static_cast<double>(n) /
                           (static_cast<double>(residuals.num_visible) * scale_ * scale_));
-  model.cost = cost(residuals);
+  // Made of the weights, the Hessian is larger than that of the cost, and every step too short.
+  // Residuals smaller than the least scale are not Gaussian of that scale, and ask for less.
+  model.hessian *= scale_ > min_scale_ ? gaussianCurvature(kind_) : curvatureShare(*parts, kind_);
+  model.cost = cost_;
   return model;
 }
 

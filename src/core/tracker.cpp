@@ -89,9 +89,13 @@ class LevelAligner {
     if (terms_->empty()) return;
     // Levels whose result is kept are finished with care.
     const double tolerance = level_ > kReadoutLevel ? parameters_.coarse_tolerance : 1.0;
+    // Mutual information is rugged near its maximum. Where no SSD follows that mends it, no step
+    // goes untried.
+    const double trusted =
+        parameters_.method == Method::kMi ? 0.0 : tolerance * parameters_.trusted_step_pixels;
     const Minimum minimum =
         minimise(*terms_, alignment_.T_live_ref, static_cast<double>(points_.median_depth),
-                 points_.pixel_motion, parameters_, tolerance);
+                 points_.pixel_motion, parameters_, tolerance, trusted);
     alignment_.T_live_ref = minimum.T_live_ref;
     alignment_.information = minimum.hessian;
     alignment_.condition = minimum.condition;

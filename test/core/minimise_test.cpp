@@ -231,6 +231,22 @@ TEST(MinimiseTest, SmallStepsAndSmallGainsEndIt) {
   EXPECT_EQ(actual.cost, expected.cost);
 }
 
+TEST(MinimiseTest, AShortStepIsTakenUntriedWhereTheCostIsConvex) {
+  TranslationTerm bowl(Eigen::Matrix3d::Identity(), {0.004, 0.0, 0.0});
+  const Minimum minimum = minimise({&bowl}, at(0.0), 1.0, kPixelMotion, freeParameters(), 1.0, 0.5);
+  EXPECT_NEAR(minimum.T_live_ref.translation().x(), 0.004, 1e-12);
+  EXPECT_NEAR(minimum.cost, bowl.cost() - 0.5 * 0.004 * 0.004, 1e-12);  // as promised
+  EXPECT_EQ(minimum.iterations, 1);
+  EXPECT_EQ(minimum.evaluations, 1);
+  // Longer ones are tried, and so is one from where the cost bends the other way.
+  EXPECT_EQ(minimise({&bowl}, at(0.1), 1.0, kPixelMotion, freeParameters(), 1.0, 0.5).evaluations,
+            2);
+  LineTerm hill([](double x) { return std::cos(x); }, [](double x) { return -std::sin(x); },
+                [](double x) { return -std::cos(x); });
+  EXPECT_GT(minimise({&hill}, at(0.001), 1.0, kPixelMotion, freeParameters(), 1.0, 0.5).evaluations,
+            2);
+}
+
 TEST(MinimiseTest, AnInfiniteCostStaysWhereItIs) {
   LineTerm nowhere([](double) { return std::numeric_limits<double>::infinity(); },
                    [](double) { return 1.0; }, [](double) { return 1.0; });

@@ -43,6 +43,26 @@ TEST(RobustWeightTest, ShapesAreThoseOfTheTable) {
   }
 }
 
+TEST(RobustWeightTest, MeanCurvatureIsThatOfGaussianResiduals) {
+  for (const RobustWeight kind : kKinds) {
+    constexpr int kSteps = 4000;
+    double weights = 0.0;
+    double curvatures = 0.0;
+    const auto influence = [&](double u) {
+      return static_cast<double>(robustLoss(kind, static_cast<float>(u)).weight) * u;
+    };
+    for (int i = 0; i < kSteps; ++i) {
+      const double low = -8.0 + 16.0 * i / kSteps;
+      const double high = -8.0 + 16.0 * (i + 1) / kSteps;
+      const double middle = 0.5 * (low + high);
+      const double density = std::exp(-0.5 * middle * middle);
+      weights += density * influence(middle) / middle * (high - low);
+      curvatures += density * (influence(high) - influence(low));
+    }
+    EXPECT_NEAR(gaussianCurvature(kind), curvatures / weights, 2e-3) << static_cast<int>(kind);
+  }
+}
+
 TEST(RobustWeightTest, LossesAreEvenAndNeverFall) {
   for (const RobustWeight kind : kKinds) {
     float before = -1.0F;

@@ -133,7 +133,7 @@ TEST_F(TrackerTest, LevelsUseTheCostThatTheMethodSays) {
     EXPECT_GT(record.points, 100);
     EXPECT_GT(record.visible, record.points / 2);
     EXPECT_LE(record.visible, record.points);
-    EXPECT_GT(record.evaluations, record.iterations);
+    EXPECT_GE(record.evaluations, std::max(1, record.iterations));
   }
   EXPECT_GT(alignment.mutual_information, 0.0);
   EXPECT_GT(alignment.residual_scale, 0.0);
@@ -229,7 +229,9 @@ TEST_F(TrackerTest, RowsReadOneAfterTheOtherAreAllowedFor) {
     const Vector6 step = (Vector6() << 0.01, 0.0, 0.0, 0.0, turn, 0.0).finished();
     const Eigen::Isometry3d truth = retract(step).inverse();
     const auto errorWith = [&](double real, double assumed) -> Vector6 {
-      const Parameters parameters;
+      Parameters parameters;
+      parameters.min_step_pixels = 0.01;  // it is the model that is measured, not the descent
+      parameters.trusted_step_pixels = 0.0;
       FramePyramid reference;
       reference.build(
           testing::renderRolling(testing::roomScene(), camera_, T_world_ref_, real * step),

@@ -23,11 +23,12 @@ struct Minimum {
 /// Minimises the sum of the terms over the pose: Newton steps with the definiteness guard, each
 /// tried in full and then halved until it meets Armijo's condition (section III-B), composed
 /// inversely, T <- T o retract(step)^-1 (Eq. 5). Stops on a small step or gain, or when no step
-/// helps. The terms are left evaluated at the pose that is returned.
+/// helps. The terms are left evaluated at the pose that is returned, or an untried step before it.
 /// @param length median depth, m. @param pixel_motion see ReferencePoints. @param tolerance is
-/// multiplied with the step and the gain that end it.
+/// multiplied with the step and the gain that end it. @param trusted_step_pixels where the cost is
+/// convex, a shorter step is taken untried and ends it.
 Minimum minimise(const std::vector<CostTerm*>& terms, const Eigen::Isometry3d& T_live_ref,
                  double length, const Matrix6& pixel_motion, const Parameters& parameters,
-                 double tolerance = 1.0);
+                 double tolerance = 1.0, double trusted_step_pixels = 0.0);
 
 }  // namespace mivo

@@ -11,6 +11,7 @@ struct NewtonStep {
   double promised_gain = 0.0;  ///< -gradient . step, positive: slope of the cost along the step
   Matrix6 hessian = Matrix6::Identity();  ///< as it was used
   double condition = 0.0;                 ///< weakest over strongest curvature before the guard
+  bool is_convex = false;                 ///< the guard had nothing to do
 };
 
 /// Guard: with translations measured in `length` (m, the median depth), each curvature that is

@@ -27,8 +27,8 @@ class RobustSum {
   /// call estimates the scale.
   double cost(const Residuals& residuals);
 
-  /// Model for residuals r(d) = r - J d. In the first iterations of a level the scale is estimated
-  /// anew.
+  /// Model for residuals r(d) = r - J d, those of the last cost(). In the first iterations of a
+  /// level the scale is estimated anew.
   QuadraticModel linearise(const Residuals& residuals, const std::array<const float*, 6>& jacobian,
                            int iteration);
 
@@ -50,6 +50,7 @@ class RobustSum {
   int scale_iterations_;
   int threads_;
   double scale_ = 0.0;
+  double cost_ = 0.0;  // the last one
 };
 
 }  // namespace mivo

@@ -18,13 +18,28 @@ std::atomic<const Kernels*>& chosen() {
 
 const Kernels& scalar() {
   static const Kernels kernels = {
-      reference::warpPoints,     reference::sampleIntensity,    reference::sampleNormalised,
-      reference::residuals,      reference::robustCost,         reference::accumulateLeastSquares,
-      reference::sumPairs,       reference::geometricResiduals, reference::binPositions,
-      reference::jointHistogram, reference::logarithms,         reference::informationDerivatives,
-      reference::reduce,         reference::contrastMap,        reference::normaliseImage,
-      reference::gradientRow,    reference::maximaRow,          reference::depthRow,
-      reference::reduceDepthRow, reference::keepSmooth,         reference::keyframePoints,
+      reference::warpPoints,
+      reference::sampleIntensity,
+      reference::sampleNormalised,
+      reference::residuals,
+      reference::robustCost,
+      reference::robustWeights,
+      reference::accumulateLeastSquares,
+      reference::sumPairs,
+      reference::geometricResiduals,
+      reference::binPositions,
+      reference::jointHistogram,
+      reference::logarithms,
+      reference::informationDerivatives,
+      reference::reduce,
+      reference::contrastMap,
+      reference::normaliseImage,
+      reference::gradientRow,
+      reference::maximaRow,
+      reference::depthRow,
+      reference::reduceDepthRow,
+      reference::keepSmooth,
+      reference::keyframePoints,
   };
   return kernels;
 }

@@ -20,6 +20,9 @@ std::size_t sampleNormalised(const ImageView& image, const ContrastView& contras
 
 void residuals(const float* live, const float* contrast, const float* reference,
                const float* visible, std::size_t n, float* residual);
+void robustWeights(RobustWeight kind, float scale, const float* residual, const float* visible,
+                   std::size_t n, float* weight);
+
 double robustCost(RobustWeight kind, float scale, const float* residual, const float* visible,
                   std::size_t n);
 void accumulateLeastSquares(RobustWeight kind, float scale, const float* residual,

@@ -33,6 +33,14 @@ double robustCost(RobustWeight kind, float scale, const float* residual, const f
   return sum;
 }
 
+void robustWeights(RobustWeight kind, float scale, const float* residual, const float* visible,
+                   std::size_t n, float* weight) {
+  const float inverse_scale = 1.0F / scale;
+  for (std::size_t i = 0; i < n; ++i) {
+    weight[i] = visible[i] != 0.0F ? robustLoss(kind, residual[i] * inverse_scale).weight : 0.0F;
+  }
+}
+
 void accumulateLeastSquares(RobustWeight kind, float scale, const float* residual,
                             const float* visible, const float* const jacobian[6], std::size_t n,
                             LeastSquaresSums& sums) {
@@ -40,10 +48,12 @@ void accumulateLeastSquares(RobustWeight kind, float scale, const float* residua
   const float inverse_scale = 1.0F / scale;
   for (std::size_t i = 0; i < n; ++i) {
     if (visible[i] == 0.0F) continue;
-    const float weight = robustLoss(kind, residual[i] * inverse_scale).weight;
+    const RobustLoss robust = robustLoss(kind, residual[i] * inverse_scale);
+    sums.weight += static_cast<double>(robust.weight);
+    sums.curvature += static_cast<double>(robust.curvature);
     double* entry = sums.hessian;
     for (int row = 0; row < 6; ++row) {
-      const float weighted = weight * jacobian[row][i];
+      const float weighted = robust.weight * jacobian[row][i];
       sums.gradient[row] += static_cast<double>(weighted * residual[i]);
       for (int column = row; column < 6; ++column) {
         *entry++ += static_cast<double>(weighted * jacobian[column][i]);

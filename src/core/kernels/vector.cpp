@@ -42,13 +42,28 @@ namespace HWY_NAMESPACE {
 
 const Kernels& table() {
   static const Kernels kernels = {
-      warpPoints,     sampleIntensity,    sampleNormalised,
-      residuals,      robustCost,         accumulateLeastSquares,
-      sumPairs,       geometricResiduals, binPositions,
-      jointHistogram, logarithms,         informationDerivatives,
-      reduce,         contrastMap,        normaliseImage,
-      gradientRow,    maximaRow,          depthRow,
-      reduceDepthRow, keepSmooth,         keyframePoints,
+      warpPoints,
+      sampleIntensity,
+      sampleNormalised,
+      residuals,
+      robustCost,
+      robustWeights,
+      accumulateLeastSquares,
+      sumPairs,
+      geometricResiduals,
+      binPositions,
+      jointHistogram,
+      logarithms,
+      informationDerivatives,
+      reduce,
+      contrastMap,
+      normaliseImage,
+      gradientRow,
+      maximaRow,
+      depthRow,
+      reduceDepthRow,
+      keepSmooth,
+      keyframePoints,
   };
   return kernels;
 }

@@ -26,7 +26,8 @@ inline void residuals(const float* live, const float* contrast, const float* ref
                        n - whole, residual + whole);
 }
 
-// Losses and weights of robust_weight.h, which states their constants' meaning.
+// Losses (Student's is below) and weights of robust_weight.h, which states their constants'
+// meaning.
 template <RobustWeight kKind>
 HWY_INLINE FloatVector lossOf(FloatVector u) {
   const FloatVector half_square = hn::Mul(hn::Mul(all(0.5F), u), u);
@@ -40,10 +41,6 @@ HWY_INLINE FloatVector lossOf(FloatVector u) {
     const FloatVector rest = hn::Max(hn::NegMulAdd(ratio, ratio, all(1.0F)), all(0.0F));
     const FloatVector cube = hn::Mul(hn::Mul(rest, rest), rest);
     return hn::Mul(all(kTukey * kTukey / 6.0F), hn::Sub(all(1.0F), cube));
-  }
-  if (kKind == RobustWeight::kStudentT) {
-    const FloatVector square = hn::Mul(hn::Mul(u, u), all(1.0F / kFreedom));
-    return hn::Mul(all(0.5F * (kFreedom + 1.0F)), hn::Log1p(Floats(), square));
   }
   return half_square;
 }
@@ -62,6 +59,40 @@ HWY_INLINE FloatVector weightOf(FloatVector u) {
     return hn::Div(all(kFreedom + 1.0F), hn::MulAdd(u, u, all(kFreedom)));
   }
   return all(1.0F);
+}
+
+/// Student's loss of several residuals at once: the sum of logarithms is that of a product. A
+/// factor is bounded so that no product overflows, at residuals of 10^4 scales.
+constexpr std::size_t kFactors = 4;
+
+HWY_INLINE FloatVector studentFactor(FloatVector u, FloatMask is_visible) {
+  const FloatVector square = hn::Mul(hn::Mul(u, u), all(1.0F / kFreedom));
+  const FloatVector factor = hn::Min(hn::Add(square, all(1.0F)), all(1e9F));
+  return hn::IfThenElse(is_visible, factor, all(1.0F));
+}
+
+HWY_INLINE double studentCost(float inverse_scale, const float* residual, const float* visible,
+                              std::size_t n) {
+  const Floats d;
+  const std::size_t lanes = hn::Lanes(d);
+  const auto factorAt = [&](std::size_t i) {
+    return studentFactor(hn::Mul(hn::LoadU(d, residual + i), all(inverse_scale)),
+                         visibleAt(visible, i));
+  };
+  double result = 0.0;
+  for (std::size_t begin = 0; begin < n; begin += kSumLength) {
+    const std::size_t end = std::min(n, begin + kSumLength);
+    FloatVector part = hn::Zero(d);
+    std::size_t i = begin;
+    for (; i + kFactors * lanes <= end; i += kFactors * lanes) {
+      const FloatVector first = hn::Mul(factorAt(i), factorAt(i + lanes));
+      const FloatVector second = hn::Mul(factorAt(i + 2 * lanes), factorAt(i + 3 * lanes));
+      part = hn::Add(part, hn::Log(d, hn::Mul(first, second)));
+    }
+    for (; i < end; i += lanes) part = hn::Add(part, hn::Log(d, factorAt(i)));
+    result += total(part);
+  }
+  return 0.5 * (static_cast<double>(kFreedom) + 1.0) * result;
 }
 
 template <RobustWeight kKind>
@@ -95,13 +126,59 @@ inline double robustCost(RobustWeight kind, float scale, const float* residual,
       cost += costOf<RobustWeight::kTukey>(inverse_scale, residual, visible, whole);
       break;
     case RobustWeight::kStudentT:
-      cost += costOf<RobustWeight::kStudentT>(inverse_scale, residual, visible, whole);
+      cost += studentCost(inverse_scale, residual, visible, whole);
       break;
     case RobustWeight::kNone:
       cost += costOf<RobustWeight::kNone>(inverse_scale, residual, visible, whole);
       break;
   }
   return cost;
+}
+
+template <RobustWeight kKind>
+HWY_INLINE void weights(float inverse_scale, const float* residual, const float* visible,
+                        std::size_t n, float* weight) {
+  const Floats d;
+  for (std::size_t i = 0; i < n; i += hn::Lanes(d)) {
+    const FloatVector w = weightOf<kKind>(hn::Mul(hn::LoadU(d, residual + i), all(inverse_scale)));
+    hn::StoreU(hn::IfThenElseZero(visibleAt(visible, i), w), d, weight + i);
+  }
+}
+
+inline void robustWeights(RobustWeight kind, float scale, const float* residual,
+                          const float* visible, std::size_t n, float* weight) {
+  const std::size_t whole = wholeVectors(n);
+  const float inverse_scale = 1.0F / scale;
+  reference::robustWeights(kind, scale, residual + whole, visible + whole, n - whole,
+                           weight + whole);
+  switch (kind) {
+    case RobustWeight::kHuber:
+      weights<RobustWeight::kHuber>(inverse_scale, residual, visible, whole, weight);
+      break;
+    case RobustWeight::kTukey:
+      weights<RobustWeight::kTukey>(inverse_scale, residual, visible, whole, weight);
+      break;
+    case RobustWeight::kStudentT:
+      weights<RobustWeight::kStudentT>(inverse_scale, residual, visible, whole, weight);
+      break;
+    case RobustWeight::kNone:
+      weights<RobustWeight::kNone>(inverse_scale, residual, visible, whole, weight);
+      break;
+  }
+}
+
+/// Curvature of the loss from its weight.
+template <RobustWeight kKind>
+HWY_INLINE FloatVector curvatureOf(FloatVector weight) {
+  if (kKind == RobustWeight::kHuber) return hn::IfThenElseZero(hn::Ge(weight, all(1.0F)), weight);
+  if (kKind == RobustWeight::kTukey) {
+    return hn::MulSub(all(5.0F), weight, hn::Mul(all(4.0F), hn::Sqrt(weight)));
+  }
+  if (kKind == RobustWeight::kStudentT) {
+    const FloatVector share = hn::Mul(weight, all(2.0F * kFreedom / (kFreedom + 1.0F)));
+    return hn::Mul(weight, hn::Sub(share, all(1.0F)));
+  }
+  return weight;
 }
 
 template <RobustWeight kKind>
@@ -113,11 +190,15 @@ HWY_INLINE void accumulatePart(float inverse_scale, const float* residual, const
   FloatVector hessian[21];
   for (FloatVector& sum : gradient) sum = hn::Zero(d);
   for (FloatVector& sum : hessian) sum = hn::Zero(d);
+  FloatVector weights = hn::Zero(d);
+  FloatVector curvatures = hn::Zero(d);
   for (std::size_t i = begin; i < end; i += hn::Lanes(d)) {
     const FloatMask mask = visibleAt(visible, i);
     const FloatVector r = hn::IfThenElseZero(mask, hn::LoadU(d, residual + i));
     const FloatVector weight =
         hn::IfThenElseZero(mask, weightOf<kKind>(hn::Mul(r, all(inverse_scale))));
+    weights = hn::Add(weights, weight);
+    curvatures = hn::Add(curvatures, hn::IfThenElseZero(mask, curvatureOf<kKind>(weight)));
     const FloatVector J[6] = {hn::LoadU(d, jacobian[0] + i), hn::LoadU(d, jacobian[1] + i),
                               hn::LoadU(d, jacobian[2] + i), hn::LoadU(d, jacobian[3] + i),
                               hn::LoadU(d, jacobian[4] + i), hn::LoadU(d, jacobian[5] + i)};
@@ -131,6 +212,8 @@ HWY_INLINE void accumulatePart(float inverse_scale, const float* residual, const
     }
   }
   for (int k = 0; k < 6; ++k) sums.gradient[k] += total(gradient[k]);
+  sums.weight += total(weights);
+  sums.curvature += total(curvatures);
   for (int k = 0; k < 21; ++k) sums.hessian[k] += total(hessian[k]);
 }
 

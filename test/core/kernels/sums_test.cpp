@@ -67,6 +67,22 @@ TEST(VectorSumsTest, CostsAgreeWithTheReference) {
   }
 }
 
+TEST(VectorSumsTest, WeightsAgreeWithTheReference) {
+  for (const RobustWeight kind : kKinds) {
+    forEachCase([&](const Kernels& kernels, std::size_t n, std::size_t offset) {
+      const Array visible = Numbers(9).visible(n, offset);
+      const Array residual = awkwardResiduals(visible, offset, 2.0F);
+      Array expected(n, offset);
+      Array actual(n, offset);
+      kernels::scalar().robustWeights(kind, 2.0F, residual.data(), visible.data(), n,
+                                      expected.data());
+      kernels.robustWeights(kind, 2.0F, residual.data(), visible.data(), n, actual.data());
+      for (std::size_t i = 0; i < n; ++i) EXPECT_NEAR(actual[i], expected[i], 2e-6F);
+      actual.expectGuarded();
+    });
+  }
+}
+
 TEST(VectorSumsTest, NormalEquationsAgreeWithTheReference) {
   for (const RobustWeight kind : kKinds) {
     forEachCase([&](const Kernels& kernels, std::size_t n, std::size_t offset) {
@@ -80,6 +96,9 @@ TEST(VectorSumsTest, NormalEquationsAgreeWithTheReference) {
                                                jacobian.data(), n, expected);
       kernels.accumulateLeastSquares(kind, 2.0F, residual.data(), visible.data(), jacobian.data(),
                                      n, actual);
+      const double points = static_cast<double>(n);
+      EXPECT_NEAR(actual.weight, expected.weight, kSumTolerance * points);
+      EXPECT_NEAR(actual.curvature, expected.curvature, kSumTolerance * points);
       double squares = 0.0;
       for (std::size_t i = 0; i < n; ++i) {
         if (visible[i] != 0.0F) squares += static_cast<double>(residual[i]) * residual[i];

@@ -43,10 +43,12 @@ struct WarpParameters {
 };
 
 /// Sums of weighted least squares: hessian (upper triangle row by row) = sum w J Jᵀ,
-/// gradient = sum w J r.
+/// gradient = sum w J r, and of the weights and curvatures of the losses.
 struct LeastSquaresSums {
   double hessian[21];
   double gradient[6];
+  double weight;
+  double curvature;
 };
 
 /// Sums of pairs of numbers (a, b) and of their products.
@@ -152,6 +154,10 @@ struct Kernels {
   /// Sum of robust losses of the visible residuals, see robustLoss.
   double (*robustCost)(RobustWeight kind, float scale, const float* residual, const float* visible,
                        std::size_t n);
+
+  /// Robust weights of the visible residuals, see robustLoss; 0 where not visible.
+  void (*robustWeights)(RobustWeight kind, float scale, const float* residual, const float* visible,
+                        std::size_t n, float* weight);
 
   /// With the robust weights of the visible residuals.
   void (*accumulateLeastSquares)(RobustWeight kind, float scale, const float* residual,
