@@ -225,13 +225,14 @@ TEST_F(TrackerTest, AnUnrelatedViewIsSeenToBeOne) {
 // add to the error of a global shutter goes away when they are allowed for.
 TEST_F(TrackerTest, RowsReadOneAfterTheOtherAreAllowedFor) {
   constexpr double kReadout = 0.6;
-  for (const double turn : {0.07, -0.07}) {
+  for (const double turn : {0.09, -0.09}) {
     const Vector6 step = (Vector6() << 0.01, 0.0, 0.0, 0.0, turn, 0.0).finished();
     const Eigen::Isometry3d truth = retract(step).inverse();
     const auto errorWith = [&](double real, double assumed) -> Vector6 {
       Parameters parameters;
-      parameters.min_step_pixels = 0.01;  // it is the model that is measured, not the descent
+      parameters.min_step_pixels = 0.001;  // it is the model that is measured, not the descent
       parameters.trusted_step_pixels = 0.0;
+      parameters.min_cost_change = 0.0;
       FramePyramid reference;
       reference.build(
           testing::renderRolling(testing::roomScene(), camera_, T_world_ref_, real * step),
