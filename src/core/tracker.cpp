@@ -179,7 +179,9 @@ class LevelAligner {
     alignment_.correlation = term.correlation();
     alignment_.sees_image = alignment_.sees_image && term.isInformative() &&
                             alignment_.correlation >= parameters_.lost_correlation;
-    if (level_ == kReadoutLevel && alignment_.sees_image) measureReadoutHere(term);
+    const bool is_wanted =
+        parameters_.rolling_shutter_estimation && parameters_.rolling_shutter_readout == 0.0;
+    if (is_wanted && level_ == kReadoutLevel && alignment_.sees_image) measureReadoutHere(term);
   }
 
   void measureReadoutHere(const SsdTerm& term) {

@@ -30,6 +30,7 @@ inline void residuals(const float* live, const float* contrast, const float* ref
 // meaning.
 template <RobustWeight kKind>
 HWY_INLINE FloatVector lossOf(FloatVector u) {
+  static_assert(kKind != RobustWeight::kStudentT, "studentCost sums those");
   const FloatVector half_square = hn::Mul(hn::Mul(all(0.5F), u), u);
   if (kKind == RobustWeight::kHuber) {
     const FloatVector magnitude = hn::Abs(u);
