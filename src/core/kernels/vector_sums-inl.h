@@ -26,6 +26,24 @@ inline void residuals(const float* live, const float* contrast, const float* ref
                        n - whole, residual + whole);
 }
 
+template <RobustWeight kKind>
+using Kind = std::integral_constant<RobustWeight, kKind>;
+
+/// Calls a function with the kind as a constant.
+template <typename Function>
+HWY_INLINE void withKind(RobustWeight kind, const Function& function) {
+  switch (kind) {
+    case RobustWeight::kHuber:
+      return function(Kind<RobustWeight::kHuber>());
+    case RobustWeight::kTukey:
+      return function(Kind<RobustWeight::kTukey>());
+    case RobustWeight::kStudentT:
+      return function(Kind<RobustWeight::kStudentT>());
+    case RobustWeight::kNone:
+      return function(Kind<RobustWeight::kNone>());
+  }
+}
+
 // Losses (Student's is below) and weights of robust_weight.h, which states their constants'
 // meaning.
 template <RobustWeight kKind>
@@ -119,20 +137,14 @@ inline double robustCost(RobustWeight kind, float scale, const float* residual,
   const std::size_t whole = wholeVectors(n);
   const float inverse_scale = 1.0F / scale;
   double cost = reference::robustCost(kind, scale, residual + whole, visible + whole, n - whole);
-  switch (kind) {
-    case RobustWeight::kHuber:
-      cost += costOf<RobustWeight::kHuber>(inverse_scale, residual, visible, whole);
-      break;
-    case RobustWeight::kTukey:
-      cost += costOf<RobustWeight::kTukey>(inverse_scale, residual, visible, whole);
-      break;
-    case RobustWeight::kStudentT:
+  withKind(kind, [&](auto constant) HWY_ATTR {
+    constexpr RobustWeight kKind = decltype(constant)::value;
+    if constexpr (kKind == RobustWeight::kStudentT) {
       cost += studentCost(inverse_scale, residual, visible, whole);
-      break;
-    case RobustWeight::kNone:
-      cost += costOf<RobustWeight::kNone>(inverse_scale, residual, visible, whole);
-      break;
-  }
+    } else {
+      cost += costOf<kKind>(inverse_scale, residual, visible, whole);
+    }
+  });
   return cost;
 }
 
@@ -152,20 +164,9 @@ inline void robustWeights(RobustWeight kind, float scale, const float* residual,
   const float inverse_scale = 1.0F / scale;
   reference::robustWeights(kind, scale, residual + whole, visible + whole, n - whole,
                            weight + whole);
-  switch (kind) {
-    case RobustWeight::kHuber:
-      weights<RobustWeight::kHuber>(inverse_scale, residual, visible, whole, weight);
-      break;
-    case RobustWeight::kTukey:
-      weights<RobustWeight::kTukey>(inverse_scale, residual, visible, whole, weight);
-      break;
-    case RobustWeight::kStudentT:
-      weights<RobustWeight::kStudentT>(inverse_scale, residual, visible, whole, weight);
-      break;
-    case RobustWeight::kNone:
-      weights<RobustWeight::kNone>(inverse_scale, residual, visible, whole, weight);
-      break;
-  }
+  withKind(kind, [&](auto constant) HWY_ATTR {
+    weights<decltype(constant)::value>(inverse_scale, residual, visible, whole, weight);
+  });
 }
 
 /// Curvature of the loss from its weight.
@@ -236,20 +237,9 @@ inline void accumulateLeastSquares(RobustWeight kind, float scale, const float* 
   for (int k = 0; k < 6; ++k) rest[k] = jacobian[k] + whole;
   reference::accumulateLeastSquares(kind, scale, residual + whole, visible + whole, rest, n - whole,
                                     sums);
-  switch (kind) {
-    case RobustWeight::kHuber:
-      accumulate<RobustWeight::kHuber>(inverse_scale, residual, visible, jacobian, whole, sums);
-      break;
-    case RobustWeight::kTukey:
-      accumulate<RobustWeight::kTukey>(inverse_scale, residual, visible, jacobian, whole, sums);
-      break;
-    case RobustWeight::kStudentT:
-      accumulate<RobustWeight::kStudentT>(inverse_scale, residual, visible, jacobian, whole, sums);
-      break;
-    case RobustWeight::kNone:
-      accumulate<RobustWeight::kNone>(inverse_scale, residual, visible, jacobian, whole, sums);
-      break;
-  }
+  withKind(kind, [&](auto constant) HWY_ATTR {
+    accumulate<decltype(constant)::value>(inverse_scale, residual, visible, jacobian, whole, sums);
+  });
 }
 
 inline void sumPairs(const float* a, const float* b, const float* divisor, const float* visible,
