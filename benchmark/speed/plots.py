@@ -8,6 +8,7 @@ import matplotlib
 matplotlib.use("Agg")
 
 import matplotlib.pyplot as plt  # noqa: E402  after the choice of the backend
+from matplotlib.ticker import NullLocator  # noqa: E402
 
 from measuring.statistics import column, mean  # noqa: E402
 from measuring.tables import LEVELS  # noqa: E402
@@ -17,6 +18,14 @@ def save(figure, folder, name):
     figure.tight_layout()
     figure.savefig(os.path.join(folder, name), dpi=100)
     plt.close(figure)
+
+
+def mark_values(axis, values):
+    """Ticks at what was measured, written as numbers rather than powers of ten."""
+    values = sorted(set(values))
+    axis.set_ticks(values)
+    axis.set_ticklabels(["%g" % value for value in values])
+    axis.set_minor_locator(NullLocator())
 
 
 def plot_levels(folder, name, measured):
@@ -48,6 +57,7 @@ def plot_sizes(folder, sizes):
     for method in ("ssd", "mi", "hybrid", "default"):
         points = [(width, ms) for width, name, ms in sizes if name == method]
         axes.loglog([width for width, _ in points], [ms for _, ms in points], "o-", label=method)
+    mark_values(axes.xaxis, [width for width, _, _ in sizes])
     axes.set_xlabel("image width, pixels")
     axes.set_ylabel("median ms per frame")
     axes.legend()
@@ -57,6 +67,7 @@ def plot_sizes(folder, sizes):
 def plot_parameter(folder, name, rows):
     figure, axes = plt.subplots(figsize=(6, 4))
     axes.semilogx([value for value, _ in rows], [ms for _, ms in rows], "o-")
+    mark_values(axes.xaxis, [value for value, _ in rows])
     axes.set_ylim(bottom=0.0)
     axes.set_xlabel(name)
     axes.set_ylabel("median ms per frame")

@@ -19,7 +19,7 @@
 namespace {
 
 constexpr unsigned kWatchdog = 100;  // s: the SDK's recorder is known to lock up
-// Of the first image before the sequence moves.
+// Of the first image before the sequence moves: what is recorded, not something that is waited for.
 constexpr std::chrono::milliseconds kStillTime(500);
 constexpr int kWholeSequence = 1000000;
 

@@ -9,6 +9,7 @@
 namespace mivo {
 namespace {
 
+// Run by the tests below alone, which look at the exit codes.
 TEST(TestMainExample, DISABLED_Passes) {}
 
 TEST(TestMainExample, DISABLED_Skips) {
