@@ -6,12 +6,6 @@
 #include "mivo/core/depth_pyramid.h"
 
 namespace mivo {
-namespace {
-
-// Side of the blocks whose points err together, as a share of the image's width.
-constexpr double kBlocksPerRow = 10.0;
-
-}  // namespace
 
 GeometricTerm::GeometricTerm(const GeometricPoints& points, std::size_t num_points,
                              const FramePyramid& live, const Warp& warp,
@@ -61,8 +55,7 @@ void GeometricTerm::measure(const Eigen::Isometry3d& T_live_ref) {
 int GeometricTerm::gradientCovariance(Matrix6& covariance) const {
   std::array<const float*, 6> jacobian;
   for (std::size_t k = 0; k < 6; ++k) jacobian[k] = (*jacobian_)[k].data();
-  return sum_.scoreCovariance(*residuals_, jacobian, *u_, *v_, warp_.camera().width / kBlocksPerRow,
-                              covariance);
+  return sum_.scoreCovariance(*residuals_, jacobian, *u_, *v_, warp_.camera().width, covariance);
 }
 
 QuadraticModel GeometricTerm::linearise(int iteration) {

@@ -14,6 +14,8 @@
 namespace mivo {
 namespace {
 
+// Blocks of the image whose points err together, in a row of it.
+constexpr double kBlocksPerRow = 10.0;
 // Standard deviation of a Gaussian in medians of its magnitude.
 constexpr double kMedianToDeviation = 1.4826;
 
@@ -142,7 +144,7 @@ double RobustSum::cost(const Residuals& residuals) {
 int RobustSum::scoreCovariance(const Residuals& residuals,
                                const std::array<const float*, 6>& jacobian,
                                const std::vector<float>& u, const std::vector<float>& v,
-                               double block, Matrix6& covariance) const {
+                               double width, Matrix6& covariance) const {
   struct Block {
     float score[6];
     int points;
@@ -154,7 +156,7 @@ int RobustSum::scoreCovariance(const Residuals& residuals,
   weights->resize(n);
   kernels::active().robustWeights(kind_, static_cast<float>(scale_), residuals.value.data(),
                                   residuals.visible.data(), n, weights->data());
-  const auto per_pixel = static_cast<float>(1.0 / block);
+  const auto per_pixel = static_cast<float>(kBlocksPerRow / width);
   const auto blockOf = [=](float pixel) { return static_cast<int>(pixel * per_pixel); };
   const int columns = blockOf(largest(u)) + 1;
   Recycled<std::vector<Block>> blocks;

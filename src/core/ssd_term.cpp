@@ -9,8 +9,6 @@ namespace {
 
 // A correlation of n independent pairs is chance up to a few times 1 / sqrt(n).
 constexpr double kSignificance = 4.0;
-// Side of the blocks whose points err together, as a share of the image's width.
-constexpr double kBlocksPerRow = 10.0;
 // Small enough to leave the pose to any other term.
 constexpr double kNoWeight = 1e-6;
 
@@ -61,9 +59,8 @@ QuadraticModel SsdTerm::linearise(int iteration) {
 int SsdTerm::gradientCovariance(Matrix6& covariance) const {
   std::array<const float*, 6> jacobian;
   for (std::size_t k = 0; k < 6; ++k) jacobian[k] = points_.jacobian[k].data();
-  const double block = warp_.camera().width / kBlocksPerRow;
-  const int blocks =
-      sum_.scoreCovariance(*residuals_, jacobian, samples_->u, samples_->v, block, covariance);
+  const int blocks = sum_.scoreCovariance(*residuals_, jacobian, samples_->u, samples_->v,
+                                          warp_.camera().width, covariance);
   covariance *= weight_ * weight_;
   return blocks;
 }

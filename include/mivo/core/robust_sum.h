@@ -35,9 +35,9 @@ class RobustSum {
   /// Covariance of the gradient that linearise() gives, from what the residuals do in blocks of the
   /// image: neighbours err together (their depth, their blur), and count as one. In the units of
   /// the Hessian; by H⁻¹ C H⁻¹ it becomes that of the increment. @param u, @param v pixels of the
-  /// points. @param block side of a block, pixels. Returns the number of blocks with points.
+  /// points. @param width of the image, pixels. Returns the number of blocks with points.
   int scoreCovariance(const Residuals& residuals, const std::array<const float*, 6>& jacobian,
-                      const std::vector<float>& u, const std::vector<float>& v, double block,
+                      const std::vector<float>& u, const std::vector<float>& v, double width,
                       Matrix6& covariance) const;
 
   double scale() const { return scale_; }  ///< 0 before the first cost()
