@@ -22,6 +22,7 @@ SsdTerm::SsdTerm(const ReferencePoints& points, const cv::Mat& live_image,
       warp_(warp),
       sum_(parameters.robust_weight, parameters.min_residual_scale, parameters),
       saturation_(parameters.saturation),
+      least_correlation_(parameters.retry_correlation),
       scale_iterations_(parameters.robust_scale_iterations) {}
 
 double SsdTerm::evaluate(const Eigen::Isometry3d& T_live_ref) {
@@ -36,11 +37,15 @@ void SsdTerm::sample(const Eigen::Isometry3d& T_live_ref) {
     warp_.sample(points_, T_live_ref, live_image_, *samples_);
   }
   residuals_->value.resize(points_.size());
-  kernels::active().residuals(samples_->value.data(), points_.contrast.data(),
-                              points_.intensity.data(), samples_->visible.data(), points_.size(),
-                              residuals_->value.data());
   std::swap(residuals_->visible, samples_->visible);
   residuals_->num_visible = samples_->num_visible;
+  if (contrast_ != nullptr && !is_sampled_) is_inverted_ = correlation() < -least_correlation_;
+  if (is_inverted_) {
+    for (float& value : samples_->value) value = -value;
+  }
+  kernels::active().residuals(samples_->value.data(), points_.contrast.data(),
+                              points_.intensity.data(), residuals_->visible.data(), points_.size(),
+                              residuals_->value.data());
   T_live_ref_ = T_live_ref;
   is_sampled_ = true;
 }

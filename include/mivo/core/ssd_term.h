@@ -15,7 +15,8 @@ namespace mivo {
 
 /// Robust sum of squared differences (Eq. 1), inverse compositional Gauss-Newton: residual
 /// r = contrast * live - intensity, in grey levels, of the scale that the residuals themselves
-/// show.
+/// show. Normalised images may also be each other's negatives, which mutual information does not
+/// mind either: when they are at the first pose, the live one is taken as its negative.
 class SsdTerm : public CostTerm {
  public:
   /// Keeps references to all arguments but the parameters. @param contrast of the live image; null:
@@ -55,6 +56,8 @@ class SsdTerm : public CostTerm {
   const Warp& warp_;
   RobustSum sum_;
   double saturation_;
+  double least_correlation_;  // a stronger negative one is no chance
+  bool is_inverted_ = false;
   int scale_iterations_;
   double weight_ = 1.0;
   Eigen::Isometry3d T_live_ref_;  // of the samples
