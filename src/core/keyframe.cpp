@@ -76,6 +76,14 @@ void Keyframe::choosePoints(const FramePyramid& frame, const Vector6& twist_per_
   }
 }
 
+void Keyframe::choosePointsByDepth(const Parameters& parameters) {
+  for (int l = 0; l < numLevels(); ++l) {
+    std::vector<Pixel>& pixels = levels_[static_cast<std::size_t>(l)].points.pixels;
+    if (static_cast<int>(pixels.size()) >= parameters.min_points) continue;
+    selectEvenly(depth_pyramid_.level(l), parameters.min_points, pixels);
+  }
+}
+
 void Keyframe::finish(const FramePyramid& frame, const Camera& camera,
                       const Parameters& parameters) {
   const RowMotion rows{twist_per_period_, shutter_.readout, 0.0};

@@ -15,9 +15,11 @@ constexpr double kOverlapMargin = 0.1;
 bool needsNewKeyframe(const Alignment& alignment, const Keyframe& keyframe,
                       const KeyframeQuality& first, const Parameters& parameters) {
   if (parameters.keyframe_policy == KeyframePolicy::kFirst) return false;
+  // The light is back: from here on images can be compared again.
+  if (alignment.is_keyframe_dark && !alignment.is_live_dark) return true;
   const Vector6 motion = localCoordinates(alignment.T_live_ref.inverse());
   // An image that shows too little would be a poor reference: better one that is far away.
-  const double patience = alignment.is_blind ? kPatienceInTheDark : 1.0;
+  const double patience = alignment.isBlind() ? kPatienceInTheDark : 1.0;
   const double least_overlap = 1.0 - patience * (1.0 - parameters.keyframe_overlap);
   if (motion.head<3>().norm() >
           patience * parameters.keyframe_translation * keyframe.medianDepth() ||
@@ -25,7 +27,7 @@ bool needsNewKeyframe(const Alignment& alignment, const Keyframe& keyframe,
       alignment.overlap < std::max(least_overlap, parameters.lost_overlap + kOverlapMargin)) {
     return true;
   }
-  if (alignment.is_blind) return false;
+  if (alignment.isBlind()) return false;
   const double ratio = parameters.keyframe_information;
   const bool less_information = first.mutual_information > 0.0 &&
                                 alignment.mutual_information < ratio * first.mutual_information;

@@ -72,6 +72,14 @@ Vector6 MotionModel::velocity(const Parameters& parameters) const {
          (steps(a.stamp, b.stamp, parameters) * period_s);
 }
 
+MotionUncertainty MotionModel::uncertainty(double stamp, const Parameters& parameters) const {
+  const double period_s = period(parameters);
+  if (poses_.size() < 2 || !(period_s > 0.0)) return {};
+  const double seconds = period_s * periodsSince(stamp, parameters);
+  return {parameters.expected_acceleration * seconds * seconds,
+          parameters.expected_turn_acceleration * seconds * seconds};
+}
+
 void MotionModel::stop() {
   poses_.clear();
 }

@@ -70,7 +70,7 @@ class Odometry::Implementation {
             bool is_blind);
   void setQuality(const Alignment& alignment);
   bool makeKeyframe(const Eigen::Isometry3d& T_odom_camera, const Vector6& twist_per_period,
-                    const Matrix6& covariance);
+                    const Matrix6& covariance, double usual_contrast = 0.0);
   bool isConvincing(const Alignment& alignment) const;
   double readout() const;
   ShutterTimes shutter() const;
@@ -183,7 +183,8 @@ Alignment Odometry::Implementation::alignWith(const PosedKeyframe& keyframe, con
                                                ? T_odom_camera_.inverse() * keyframe.T_odom_keyframe
                                                : T_start_ref;
   return align({keyframe.keyframe, live_, camera_, T_start_ref, T_previous_ref,
-                motion_.periodsSince(frame.stamp, parameters_), shutter()},
+                motion_.periodsSince(frame.stamp, parameters_), shutter(), keyframe.usual_contrast,
+                motion_.uncertainty(frame.stamp, parameters_)},
                parameters_);
 }
 
@@ -192,7 +193,7 @@ void Odometry::Implementation::track(const Frame& frame,
   const double begin = threadMilliseconds();
   Alignment alignment = alignWith(keyframes_.current(), frame, T_odom_camera_start);
   TrackingReason reason = judge(frame, keyframes_.current(), alignment);
-  if (!alignment.is_blind && (reason != TrackingReason::kNone || !isConvincing(alignment))) {
+  if (!alignment.isBlind() && (reason != TrackingReason::kNone || !isConvincing(alignment))) {
     if (reason == TrackingReason::kNone) {
       const Alignment second = alignWith(keyframes_.current(), frame, T_odom_camera_);
       if (judge(frame, keyframes_.current(), second) == TrackingReason::kNone &&
@@ -209,7 +210,7 @@ void Odometry::Implementation::track(const Frame& frame,
   if (reason == TrackingReason::kNone) {
     accept(frame, alignment);
   } else {
-    lose(frame, T_odom_camera_start, reason, alignment.is_blind);
+    lose(frame, T_odom_camera_start, reason, alignment.isBlind());
   }
 }
 
@@ -259,7 +260,7 @@ TrackingReason Odometry::Implementation::judge(const Frame& frame, const PosedKe
   }
   // In the dark depth alone knows the way. But an image that shows something else is of another
   // place, however well some of its planes fit.
-  if (!alignment.sees_image && !(alignment.sees_depth && alignment.is_blind)) {
+  if (!alignment.sees_image && !(alignment.sees_depth && alignment.isBlind())) {
     return TrackingReason::kNoInformation;
   }
   if (alignment.overlap < parameters_.lost_overlap) return TrackingReason::kNoOverlap;
@@ -304,7 +305,9 @@ void Odometry::Implementation::accept(const Frame& frame, const Alignment& align
     first_quality_ = {alignment.mutual_information, alignment.residual_scale};
   }
   if (needsNewKeyframe(alignment, keyframe.keyframe, first_quality_, parameters_)) {
-    makeKeyframe(T_odom_camera_, twist_per_period, result_.covariance);
+    // In the dark the next keyframe shows less than what there is to see.
+    const double usual_contrast = alignment.sees_image ? 0.0 : keyframe.usual_contrast;
+    makeKeyframe(T_odom_camera_, twist_per_period, result_.covariance, usual_contrast);
   }
 }
 
@@ -364,17 +367,21 @@ ShutterTimes Odometry::Implementation::shutter() const {
 
 bool Odometry::Implementation::makeKeyframe(const Eigen::Isometry3d& T_odom_camera,
                                             const Vector6& twist_per_period,
-                                            const Matrix6& covariance) {
+                                            const Matrix6& covariance, double usual_contrast) {
   const double begin = threadMilliseconds();
   readout_.endKeyframe();
   PosedKeyframe& candidate = keyframes_.candidate();
   candidate.keyframe.choosePoints(live_, twist_per_period, shutter(), parameters_);
+  if (usual_contrast > candidate.keyframe.contrastInView() && parameters_.geometric_term) {
+    candidate.keyframe.choosePointsByDepth(parameters_);
+  }
   result_.milliseconds.keyframe += threadMilliseconds() - begin;
   if (candidate.keyframe.numPoints() < static_cast<std::size_t>(parameters_.lost_points)) {
     return false;
   }
   candidate.T_odom_keyframe = T_odom_camera;
   candidate.covariance = covariance;
+  candidate.usual_contrast = std::max(usual_contrast, candidate.keyframe.contrastInView());
   candidate.number = ++num_keyframes_;
   candidate.segment = segment_;
   keyframe_is_unfinished_ = true;

@@ -215,4 +215,13 @@ void selectAll(const cv::Mat& depth, std::vector<Pixel>& pixels) {
   }
 }
 
+void selectEvenly(const cv::Mat& depth, int num_points, std::vector<Pixel>& pixels) {
+  selectAll(depth, pixels);
+  const std::size_t stride =
+      std::max<std::size_t>(1, pixels.size() / static_cast<std::size_t>(num_points));
+  const std::size_t count = (pixels.size() + stride - 1) / stride;
+  for (std::size_t i = 0; i < count; ++i) pixels[i] = pixels[i * stride];
+  pixels.resize(count);
+}
+
 }  // namespace mivo

@@ -3,12 +3,14 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <initializer_list>
 #include <optional>
 
 #include "mivo/core/cpu_clock.h"
 #include "mivo/core/geometric_term.h"
 #include "mivo/core/mi_term.h"
 #include "mivo/core/minimise.h"
+#include "mivo/core/motion_prior_term.h"
 #include "mivo/core/pose_covariance.h"
 #include "mivo/core/recycled.h"
 #include "mivo/core/ssd_term.h"
@@ -80,10 +82,31 @@ class LevelAligner {
     return &*geometry_;
   }
 
+  /// Where depth alone is to tell the pose: what keeps it from sliding along walls. None when
+  /// nothing is known about the motion.
+  MotionPriorTerm* motionPrior(GeometricTerm* geometry) {
+    const MotionUncertainty& uncertainty = task_.uncertainty;
+    if (geometry == nullptr || !(uncertainty.translation > 0.0 && uncertainty.rotation > 0.0)) {
+      return nullptr;
+    }
+    prior_.emplace(task_.T_live_ref, uncertainty, overcounted(*geometry));
+    return &*prior_;
+  }
+
+  /// How many times a term counts what it knows: the covariance of its gradient would be its
+  /// Hessian if its residuals were independent.
+  double overcounted(GeometricTerm& term) const {
+    Matrix6 of_gradient;
+    if (term.gradientCovariance(of_gradient) < kMinBlocks) return 1.0;
+    const Matrix6 hessian = term.linearise(0).hessian;
+    const Matrix6 ratio = hessian.ldlt().solve(of_gradient);
+    return std::max(1.0, ratio.trace() / 6.0);
+  }
+
   /// Minimises the sum of the terms that there are.
-  void minimiseTerms(CostTerm* first, CostTerm* second = nullptr) {
+  void minimiseTerms(std::initializer_list<CostTerm*> terms) {
     terms_->clear();
-    for (CostTerm* term : {first, second}) {
+    for (CostTerm* term : terms) {
       if (term != nullptr) terms_->push_back(term);
     }
     if (terms_->empty()) return;
@@ -145,7 +168,7 @@ class LevelAligner {
     alignment_.sees_image = false;
     alignment_.sees_depth = false;
     if (isEnoughInView(term)) {
-      minimiseTerms(&term);
+      minimiseTerms({&term});
       record_.visible = static_cast<int>(term.numVisible());
       alignment_.overlap = share(term.numVisible());
       alignment_.mutual_information = term.mutualInformation();
@@ -157,7 +180,7 @@ class LevelAligner {
     // Chance, not structure: its maximum means nothing. Depth may still know the way.
     alignment_.T_live_ref = start;
     if (GeometricTerm* geometry = geometricTerm(parameters_.geometric_points_dark)) {
-      minimiseTerms(geometry);
+      minimiseTerms({geometry, motionPrior(geometry)});
       judgeDepth(*geometry);
     }
   }
@@ -171,7 +194,8 @@ class LevelAligner {
         alignment_.sees_image ? parameters_.geometric_points : parameters_.geometric_points_dark);
     const bool has_points = term.numVisible() >= static_cast<std::size_t>(parameters_.lost_points);
     alignment_.sees_depth = false;
-    minimiseTerms(has_points ? &term : nullptr, geometry);
+    minimiseTerms({has_points ? &term : nullptr, geometry,
+                   alignment_.sees_image ? nullptr : motionPrior(geometry)});
     if (geometry != nullptr) judgeDepth(*geometry);
     record_.visible = static_cast<int>(term.numVisible());
     alignment_.overlap = share(term.numInView());
@@ -203,6 +227,7 @@ class LevelAligner {
   Alignment& alignment_;
   LevelRecord& record_;
   std::optional<GeometricTerm> geometry_;
+  std::optional<MotionPriorTerm> prior_;
   Recycled<std::vector<CostTerm*>> terms_;
 };
 
@@ -211,8 +236,10 @@ class LevelAligner {
 Alignment align(const AlignmentTask& task, const Parameters& parameters) {
   Alignment alignment;
   alignment.T_live_ref = task.T_live_ref;
-  alignment.is_blind =
-      task.live.contrastInView() < parameters.blind_contrast * task.keyframe.contrastInView();
+  const double of_keyframe = task.keyframe.contrastInView();
+  const double least = parameters.blind_contrast * std::max(of_keyframe, task.usual_contrast);
+  alignment.is_keyframe_dark = of_keyframe < least;
+  alignment.is_live_dark = task.live.contrastInView() < least;
   for (int l = task.keyframe.numLevels() - 1; l >= 0; --l) {
     LevelRecord& record = alignment.levels[static_cast<std::size_t>(alignment.num_levels++)];
     LevelAligner(task, l, parameters, alignment, record).run();

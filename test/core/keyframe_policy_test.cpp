@@ -63,6 +63,14 @@ TEST_F(KeyframePolicyTest, LessInformationThanAtFirstNeedsOne) {
   EXPECT_TRUE(isNeeded());
 }
 
+TEST_F(KeyframePolicyTest, AfterAKeyframeOfTheDarkTheFirstLitFrameIsOne) {
+  alignment_.is_keyframe_dark = true;
+  alignment_.is_live_dark = true;
+  EXPECT_FALSE(isNeeded());
+  alignment_.is_live_dark = false;
+  EXPECT_TRUE(isNeeded());
+}
+
 TEST_F(KeyframePolicyTest, WithSsdAloneTheResidualsSpeak) {
   first_.mutual_information = 0.0;
   alignment_.mutual_information = 0.0;

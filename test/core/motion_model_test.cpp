@@ -49,6 +49,19 @@ TEST_F(MotionModelTest, AScrewIsContinued) {
   expectPrediction(stamp_ + kPeriod, 4.0);
 }
 
+TEST_F(MotionModelTest, ThePredictionErrsByWhatTheCameraMayAccelerate) {
+  Parameters parameters = parameters_;
+  parameters.expected_acceleration = 3.0;
+  parameters.expected_turn_acceleration = 20.0;
+  parameters.frame_period = 0.1;
+  EXPECT_EQ(model_.uncertainty(0.1, parameters).translation, 0.0);  // no velocity is known yet
+  model_.add(0.0, Eigen::Isometry3d::Identity());
+  model_.add(0.1, Eigen::Isometry3d::Identity());
+  EXPECT_NEAR(model_.uncertainty(0.2, parameters).translation, 0.03, 1e-12);
+  EXPECT_NEAR(model_.uncertainty(0.2, parameters).rotation, 0.2, 1e-12);
+  EXPECT_NEAR(model_.uncertainty(0.4, parameters).translation, 9.0 * 0.03, 1e-12);
+}
+
 TEST_F(MotionModelTest, JitterOfTheStampsIsNoMotion) {
   testing::Random random(1);
   for (int n = 0; n < 20; ++n) feed(n, random.uniform(-0.2, 0.2) * kPeriod);

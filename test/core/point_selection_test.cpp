@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <map>
 #include <opencv2/core.hpp>
@@ -36,6 +37,25 @@ std::vector<Pixel> allPixels(const cv::Mat& depth) {
   std::vector<Pixel> pixels = {{1, 1}};
   selectAll(depth, pixels);
   return pixels;
+}
+
+TEST(SelectEvenlyTest, AboutSoManyPixelsWithDepthFromEverywhere) {
+  cv::Mat depth(60, 80, CV_32FC1, cv::Scalar(1.5));
+  depth(cv::Rect(0, 0, 40, 60)).setTo(0.0F);
+  std::vector<Pixel> pixels;
+  selectEvenly(depth, 200, pixels);
+  EXPECT_GE(pixels.size(), 200U);
+  EXPECT_LT(pixels.size(), 220U);
+  std::array<int, 4> quarters{};  // of the half that has depth
+  for (const Pixel& pixel : pixels) {
+    EXPECT_GE(pixel.x, 40);
+    ++quarters[static_cast<std::size_t>(2 * (pixel.y >= 30) + (pixel.x >= 60))];
+  }
+  for (const int count : quarters) EXPECT_GT(count, 40);
+  selectEvenly(depth, 100000, pixels);
+  EXPECT_EQ(pixels.size(), allPixels(depth).size());
+  selectEvenly(cv::Mat::zeros(60, 80, CV_32FC1), 200, pixels);
+  EXPECT_TRUE(pixels.empty());
 }
 
 cv::Mat noiseImage(std::uint64_t seed) {

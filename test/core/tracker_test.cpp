@@ -191,6 +191,18 @@ TEST_F(TrackerTest, NormalisedContrastStandsLightThatChangesAndMoves) {
   }
 }
 
+TEST_F(TrackerTest, ANegativeIsAlignedLikeAnyOtherLight) {
+  const Frame positive = live_;
+  live_.image = 255 - positive.image;
+  const Eigen::Isometry3d start = Random(7).pose(0.02, 0.01) * truth_;
+  Parameters parameters = paperParameters(Method::kHybrid);
+  parameters.photometric_model = PhotometricModel::kLcn;
+  const Alignment alignment = run(parameters, start);
+  expectClose(alignment, truth_, translationTolerance(Method::kHybrid),
+              rotationTolerance(Method::kHybrid));
+  EXPECT_GT(alignment.correlation, parameters.retry_correlation);
+}
+
 // Nothing to see, but depth: into a corner of the room, whose three walls fix all six directions.
 TEST_F(TrackerTest, DepthAloneFindsTheWayInTheDark) {
   const Eigen::Isometry3d into_corner =
@@ -210,6 +222,55 @@ TEST_F(TrackerTest, DepthAloneFindsTheWayInTheDark) {
   const Alignment blind = run(parameters, start);
   EXPECT_FALSE(blind.sees_depth);
   EXPECT_FALSE(blind.sees_image);
+}
+
+// A wall, and nothing to see on it: depth says how far and how inclined, the motion so far where.
+TEST_F(TrackerTest, AlongAWallInTheDarkTheCameraKeepsItsVelocity) {
+  reference_ = testing::render(testing::wallScene(), camera_, Eigen::Isometry3d::Identity());
+  const Vector6 motion = (Vector6() << 0.02, -0.01, 0.015, 0.004, -0.006, 0.01).finished();
+  const Eigen::Isometry3d truth = retract(motion).inverse();
+  live_ = testing::render(testing::wallScene(), camera_, retract(motion));
+  live_.image.setTo(3);
+  Parameters parameters;
+  FramePyramid reference;
+  reference.build(reference_, parameters);
+  FramePyramid live;
+  live.build(live_, parameters);
+  Keyframe keyframe;
+  keyframe.build(reference, camera_, Vector6::Zero(), {}, parameters);
+  // Predicted too far along the wall by 1 mm, and towards it by 5 mm.
+  const Eigen::Isometry3d predicted =
+      retract((Vector6() << 0.001, 0.0, 0.005, 0.0, 0.0, 0.0).finished()) * truth;
+  AlignmentTask task{keyframe, live, camera_, predicted, predicted};
+  task.uncertainty = {0.002, 0.03};
+  const Alignment alignment = align(task, parameters);
+  ASSERT_TRUE(alignment.sees_depth);
+  const Eigen::Vector3d error = (alignment.T_live_ref * truth.inverse()).translation();
+  EXPECT_NEAR(error.x(), 0.001, 5e-4);
+  EXPECT_NEAR(error.y(), 0.0, 5e-4);
+  EXPECT_NEAR(error.z(), 0.0, 1e-3);
+  // And it says that it does not know better.
+  EXPECT_GT(alignment.covariance(0, 0), 0.5 * 0.002 * 0.002);
+  EXPECT_LT(alignment.covariance(2, 2), 0.25 * 0.002 * 0.002);
+}
+
+// The keyframe shows nothing, too, but once there was light: still no other place.
+TEST_F(TrackerTest, WhetherAViewIsDarkDependsOnTheLastThatWasNot) {
+  reference_.image.setTo(3);
+  live_.image.setTo(3);
+  Parameters parameters;
+  FramePyramid reference;
+  reference.build(reference_, parameters);
+  FramePyramid live;
+  live.build(live_, parameters);
+  Keyframe keyframe;
+  keyframe.build(reference, camera_, Vector6::Zero(), {}, parameters);
+  AlignmentTask task{keyframe, live, camera_, truth_, truth_};
+  EXPECT_FALSE(align(task, parameters).isBlind());
+  task.usual_contrast = 40.0;
+  const Alignment dark = align(task, parameters);
+  EXPECT_TRUE(dark.is_keyframe_dark);
+  EXPECT_TRUE(dark.is_live_dark);
 }
 
 TEST_F(TrackerTest, AnUnrelatedViewIsSeenToBeOne) {

@@ -34,6 +34,9 @@ class Keyframe {
   /// and computing what depends on them. Between them there are image, depth and number of points.
   void choosePoints(const FramePyramid& frame, const Vector6& twist_per_period,
                     const ShutterTimes& shutter, const Parameters& parameters);
+  /// In between, for a keyframe of the dark: where the image gave too few points to tell what is in
+  /// view, depth gives them.
+  void choosePointsByDepth(const Parameters& parameters);
   void finish(const FramePyramid& frame, const Camera& camera, const Parameters& parameters);
 
   /// See FramePyramid::contrastInView().

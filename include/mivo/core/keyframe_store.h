@@ -17,6 +17,9 @@ struct PosedKeyframe {
   Eigen::Isometry3d T_odom_keyframe = Eigen::Isometry3d::Identity();
   /// Of the error of T_odom_keyframe, in the keyframe's axes, see TrackingResult::covariance.
   Matrix6 covariance = Matrix6::Identity();
+  /// Contrast of the last keyframe that images could be compared with: this one's, unless it was
+  /// made in the dark. See AlignmentTask::usual_contrast.
+  double usual_contrast = 0.0;
   int number = 0;   ///< from 1
   int segment = 0;  ///< keyframes of one segment are connected by measurements
 };

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <vector>
 
+#include "mivo/core/motion_prior_term.h"
 #include "mivo/core/parameters.h"
 #include "mivo/core/se3.h"
 
@@ -25,6 +26,10 @@ class MotionModel {
 
   /// Velocity of the camera in its own axes, m/s and rad/s.
   Vector6 velocity(const Parameters& parameters) const;
+
+  /// How far the prediction may be off, by the accelerations that the parameters expect. None
+  /// before two poses have been added, when there is no velocity to be kept.
+  MotionUncertainty uncertainty(double stamp, const Parameters& parameters) const;
 
   /// Forgets the velocity, keeps the frame period: the next pose is not a continuation.
   void stop();

@@ -30,4 +30,7 @@ void selectSalient(const cv::Mat& image, const cv::Mat& depth, const SelectionLi
 /// around each would leave too few.
 void selectAll(const cv::Mat& depth, std::vector<Pixel>& pixels);
 
+/// About so many of those, spread evenly: for an image that shows nothing.
+void selectEvenly(const cv::Mat& depth, int num_points, std::vector<Pixel>& pixels);
+
 }  // namespace mivo

@@ -7,6 +7,7 @@
 #include "mivo/core/camera.h"
 #include "mivo/core/frame_pyramid.h"
 #include "mivo/core/keyframe.h"
+#include "mivo/core/motion_prior_term.h"
 #include "mivo/core/parameters.h"
 #include "mivo/core/readout_estimator.h"
 #include "mivo/core/row_motion.h"
@@ -25,6 +26,11 @@ struct AlignmentTask {
   Eigen::Isometry3d T_previous_ref = Eigen::Isometry3d::Identity();
   double periods = 1.0;
   ShutterTimes shutter = {};
+  /// Contrast of the last view that could be compared by its image, see contrastInView(); less than
+  /// the keyframe's: that counts.
+  double usual_contrast = 0.0;
+  /// Of the start, if it was predicted from a known velocity; 0: not known.
+  MotionUncertainty uncertainty = {};
 };
 
 /// Result of aligning one frame with a keyframe.
@@ -36,7 +42,8 @@ struct Alignment {
   int points = 0;                   ///< in view on the finest level
   double overlap = 0.0;             ///< fraction of the finest level's points in view
   bool sees_image = false;          ///< the images have something in common on the finest level
-  bool is_blind = false;            ///< the live image shows too little to be compared
+  bool is_live_dark = false;        ///< the live image shows too little to be compared
+  bool is_keyframe_dark = false;    ///< that of the keyframe does
   bool sees_depth = false;          ///< the geometric term took part there
   double mutual_information = 0.0;  ///< nats, on the finest level that uses it
   double residual_scale = 0.0;      ///< grey levels, on the finest SSD level
@@ -45,6 +52,9 @@ struct Alignment {
   ReadoutMeasurement readout;       ///< what the frame says about it
   int num_levels = 0;
   std::array<LevelRecord, kMaxLevels> levels{};  ///< coarsest first
+
+  /// Depth alone may tell the pose then.
+  bool isBlind() const { return is_live_dark || is_keyframe_dark; }
 };
 
 /// Aligns a frame with a keyframe from the coarsest level to the finest: mutual information or SSD
