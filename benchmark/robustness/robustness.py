@@ -20,6 +20,7 @@ ROOT = os.path.dirname(os.path.dirname(HERE))
 sys.path.append(os.path.dirname(HERE))
 
 import events  # noqa: E402
+import shutter as shutters  # noqa: E402
 from measuring import machine, sequences  # noqa: E402  found by the path above
 from measuring.jobs import Folder, Job  # noqa: E402
 from measuring.methods import raw_words  # noqa: E402
@@ -140,8 +141,10 @@ def cell(figures):
     return f"{metres:.4f} {degrees:.3f}" + (f" ({lost} lost)" if lost else "")
 
 
-def print_table(bench, title, head, rows):
+def print_table(bench, title, head, rows, text=""):
     bench.say(f"\n## {title}\n")
+    if text:
+        bench.say(text.strip() + "\n")
     bench.say(table(head, rows).rstrip("\n"))
 
 
@@ -328,8 +331,19 @@ def covariance(bench):
     print_table(bench, "Covariance: NEES / 6", ["sequence", "mean", "median", "95 %"], rows)
 
 
+def shutter(bench):
+    """Ten seeds with and without a rolling shutter."""
+    rows, progress = [], Progress(1 if bench.options.quick else len(shutters.SEEDS), "shutters")
+    for row in shutters.rows_of(bench):
+        rows.append(row)
+        progress.step(row[0])
+    progress.close()
+    print_table(bench, "Read-out time", shutters.HEAD, rows,
+                shutters.TEXT.format(1e3 * shutters.READOUT_S))
+
+
 PARTS = {"light": light, "darkness": darkness, "loss": loss, "static": static, "rest": rest,
-         "covariance": covariance}
+         "covariance": covariance, "shutter": shutter}
 
 
 def document(bench):

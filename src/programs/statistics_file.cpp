@@ -27,7 +27,7 @@ StatisticsFile::StatisticsFile(const std::string& path, Overwrite overwrite, int
         ",iterations_{0},evaluations_{0},points_{0},visible_{0},ms_{0},ms_line_search_{0}", level);
   }
   header +=
-      ",mutual_information,residual_scale,overlap"
+      ",mutual_information,residual_scale,overlap,rolling_shutter_readout"
       ",sigma_tx,sigma_ty,sigma_tz,sigma_rx,sigma_ry,sigma_rz"
       ",ms_pyramid,ms_tracking,ms_keyframe,ms_total,cpu_ms";
   for (int i = 0; i < 6; ++i) {
@@ -46,8 +46,8 @@ void StatisticsFile::write(double stamp, const TrackingResult& result, double cp
                        record.points, record.visible, record.milliseconds,
                        record.line_search_milliseconds);
   }
-  row += fmt::format(",{:.6g},{:.6g},{:.6g}", result.mutual_information, result.residual_scale,
-                     result.overlap);
+  row += fmt::format(",{:.6g},{:.6g},{:.6g},{:.5f}", result.mutual_information,
+                     result.residual_scale, result.overlap, result.rolling_shutter_readout);
   for (int i = 0; i < 6; ++i) row += fmt::format(",{:.6g}", std::sqrt(result.covariance(i, i)));
   const StageTimes& times = result.milliseconds;
   row += fmt::format(",{:.3f},{:.3f},{:.3f},{:.3f},{:.3f}", times.pyramid, times.tracking,

@@ -36,6 +36,7 @@ void count(const TrackingResult& result, TrackingSummary& summary) {
   }
   summary.keyframes = result.keyframes;
   summary.segments = result.segment + 1;
+  summary.rolling_shutter_readout = result.rolling_shutter_readout;
 }
 
 const TrackingResult& process(Odometry& odometry, const Frame& frame,
@@ -98,6 +99,7 @@ void print(std::ostream& stream, const TrackingSummary& summary) {
          << "skipped_frames: " << summary.skipped_frames << "\n"
          << "keyframes: " << summary.keyframes << "\n"
          << "segments: " << summary.segments << "\n"
+         << "rolling_shutter_readout_s: " << summary.rolling_shutter_readout << "\n"
          << "cpu_ms_median: " << summary.cpu_ms_median << "\n"
          << "cpu_ms_p95: " << summary.cpu_ms_p95 << "\n";
 }

@@ -63,6 +63,7 @@ struct TrackingSummary {
   std::size_t skipped_frames = 0;  ///< broken ones, for which the source could give no image
   int keyframes = 0;
   int segments = 0;
+  double rolling_shutter_readout = 0.0;  ///< s, at the end; 0: global shutter
   double cpu_ms_median = 0.0;  ///< of the process, all threads, from decoded images to the pose
   double cpu_ms_p95 = 0.0;
 };
