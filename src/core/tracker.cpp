@@ -190,8 +190,9 @@ class LevelAligner {
                  task_.live.isNormalised() ? &task_.live.contrast().level(level_) : nullptr, warp_,
                  parameters_);
     alignment_.sees_image = isEnoughInView(term) && term.isSignificant();
-    GeometricTerm* geometry = geometricTerm(
-        alignment_.sees_image ? parameters_.geometric_points : parameters_.geometric_points_dark);
+    const bool shows_enough = alignment_.sees_image && !alignment_.isBlind();
+    GeometricTerm* geometry = geometricTerm(shows_enough ? parameters_.geometric_points
+                                                         : parameters_.geometric_points_dark);
     const bool has_points = term.numVisible() >= static_cast<std::size_t>(parameters_.lost_points);
     alignment_.sees_depth = false;
     minimiseTerms({has_points ? &term : nullptr, geometry,
