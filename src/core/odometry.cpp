@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mivo/core/odometry.h"
 
-#include <Eigen/Eigenvalues>
 #include <optional>
 
 #include "mivo/core/cpu_clock.h"
 #include "mivo/core/error.h"
 #include "mivo/core/frame_pyramid.h"
+#include "mivo/core/judgement.h"
 #include "mivo/core/keyframe.h"
 #include "mivo/core/keyframe_policy.h"
 #include "mivo/core/keyframe_store.h"
@@ -68,10 +68,8 @@ class Odometry::Implementation {
   void accept(const Frame& frame, const Alignment& alignment);
   void lose(const Frame& frame, const Eigen::Isometry3d& guess, TrackingReason reason,
             bool is_blind);
-  void setQuality(const Alignment& alignment);
   bool makeKeyframe(const Eigen::Isometry3d& T_odom_camera, const Vector6& twist_per_period,
                     const Matrix6& covariance, double usual_contrast = 0.0);
-  bool isConvincing(const Alignment& alignment) const;
   double readout() const;
   ShutterTimes shutter() const;
   TrackingReason judge(const Frame& frame, const PosedKeyframe& keyframe,
@@ -193,7 +191,8 @@ void Odometry::Implementation::track(const Frame& frame,
   const double begin = threadMilliseconds();
   Alignment alignment = alignWith(keyframes_.current(), frame, T_odom_camera_start);
   TrackingReason reason = judge(frame, keyframes_.current(), alignment);
-  if (!alignment.isBlind() && (reason != TrackingReason::kNone || !isConvincing(alignment))) {
+  if (!alignment.isBlind() &&
+      (reason != TrackingReason::kNone || !isConvincing(alignment, parameters_))) {
     if (reason == TrackingReason::kNone) {
       const Alignment second = alignWith(keyframes_.current(), frame, T_odom_camera_);
       if (judge(frame, keyframes_.current(), second) == TrackingReason::kNone &&
@@ -223,7 +222,8 @@ std::optional<Alignment> Odometry::Implementation::recover(const Frame& frame) {
        recoveryAttempts(keyframes_, T_odom_camera_, T_odom_predicted, lost_in_a_row_)) {
     const PosedKeyframe& keyframe = keyframes_.at(attempt.keyframe);
     const Alignment alignment = alignWith(keyframe, frame, attempt.T_odom_camera);
-    if (judge(frame, keyframe, alignment) != TrackingReason::kNone || !isConvincing(alignment)) {
+    if (judge(frame, keyframe, alignment) != TrackingReason::kNone ||
+        !isConvincing(alignment, parameters_)) {
       continue;
     }
     if (attempt.keyframe > 0) {
@@ -236,13 +236,6 @@ std::optional<Alignment> Odometry::Implementation::recover(const Frame& frame) {
   return std::nullopt;
 }
 
-/// Whether an alignment is good enough to be believed without its history. Mutual information alone
-/// has no correlation; there its significance, which judge() has asked for, must do.
-bool Odometry::Implementation::isConvincing(const Alignment& alignment) const {
-  return parameters_.method == Method::kMi ||
-         (alignment.sees_image && alignment.correlation >= parameters_.retry_correlation);
-}
-
 void Odometry::Implementation::record(const Alignment& alignment) {
   result_.num_levels = alignment.num_levels;
   result_.levels = alignment.levels;
@@ -253,28 +246,14 @@ void Odometry::Implementation::record(const Alignment& alignment) {
   result_.correlation = alignment.correlation;
 }
 
+/// Of one segment, the motion since the last frame counts, too.
 TrackingReason Odometry::Implementation::judge(const Frame& frame, const PosedKeyframe& keyframe,
                                                const Alignment& alignment) const {
-  if (!alignment.T_live_ref.matrix().allFinite() || !alignment.information.allFinite()) {
-    return TrackingReason::kNotFinite;
-  }
-  // In the dark depth alone knows the way. But an image that shows something else is of another
-  // place, however well some of its planes fit.
-  if (!alignment.sees_image && !(alignment.sees_depth && alignment.isBlind())) {
-    return TrackingReason::kNoInformation;
-  }
-  if (alignment.overlap < parameters_.lost_overlap) return TrackingReason::kNoOverlap;
-  if (alignment.points < parameters_.lost_points) return TrackingReason::kTooFewPoints;
-  if (!alignment.covariance.allFinite()) return TrackingReason::kSingular;
-  if (keyframe.segment != segment_) return TrackingReason::kNone;
-  const double seconds = frame.stamp - pose_stamp_;
+  const TrackingReason reason = mivo::judge(alignment, parameters_);
+  if (reason != TrackingReason::kNone || keyframe.segment != segment_) return reason;
   const Vector6 motion = localCoordinates(T_odom_camera_.inverse() * keyframe.T_odom_keyframe *
                                           alignment.T_live_ref.inverse());
-  if (motion.head<3>().norm() > parameters_.lost_speed * seconds ||
-      motion.tail<3>().norm() > parameters_.lost_turn_rate * seconds) {
-    return TrackingReason::kImplausibleMotion;
-  }
-  return TrackingReason::kNone;
+  return judgeMotion(motion, frame.stamp - pose_stamp_, parameters_);
 }
 
 void Odometry::Implementation::accept(const Frame& frame, const Alignment& alignment) {
@@ -292,7 +271,9 @@ void Odometry::Implementation::accept(const Frame& frame, const Alignment& align
   lost_in_a_row_ = 0;
   segment_ = keyframe.segment;
   motion_.add(frame.stamp, T_odom_camera_);
-  setQuality(alignment);
+  const Quality quality = qualityOf(alignment, parameters_);
+  result_.state = quality.state;
+  result_.reason = quality.reason;
   // Held against a keyframe whose own velocity is not known, a frame says nothing about the rows.
   if (!keyframe.keyframe.twistPerPeriod().isZero(0.0)) readout_.add(alignment.readout);
   result_.T_odom_camera = T_odom_camera_;
@@ -308,17 +289,6 @@ void Odometry::Implementation::accept(const Frame& frame, const Alignment& align
     // In the dark the next keyframe shows less than what there is to see.
     const double usual_contrast = alignment.sees_image ? 0.0 : keyframe.usual_contrast;
     makeKeyframe(T_odom_camera_, twist_per_period, result_.covariance, usual_contrast);
-  }
-}
-
-void Odometry::Implementation::setQuality(const Alignment& alignment) {
-  result_.state = TrackingState::kDegraded;
-  if (!alignment.sees_image) {
-    result_.reason = TrackingReason::kNoInformation;
-  } else if (alignment.condition < parameters_.degraded_curvature) {
-    result_.reason = TrackingReason::kSingular;
-  } else {
-    result_.state = TrackingState::kTracking;
   }
 }
 
