@@ -67,7 +67,7 @@ class Odometry::Implementation {
   void record(const Alignment& alignment);
   void accept(const Frame& frame, const Alignment& alignment);
   void lose(const Frame& frame, const Eigen::Isometry3d& guess, TrackingReason reason,
-            bool is_blind);
+            bool is_dark);
   bool makeKeyframe(const Eigen::Isometry3d& T_odom_camera, const Vector6& twist_per_period,
                     const Matrix6& covariance, double usual_contrast = 0.0);
   double readout() const;
@@ -191,7 +191,7 @@ void Odometry::Implementation::track(const Frame& frame,
   const double begin = threadMilliseconds();
   Alignment alignment = alignWith(keyframes_.current(), frame, T_odom_camera_start);
   TrackingReason reason = judge(frame, keyframes_.current(), alignment);
-  if (!alignment.isBlind() &&
+  if (!alignment.is_live_dark &&
       (reason != TrackingReason::kNone || !isConvincing(alignment, parameters_))) {
     if (reason == TrackingReason::kNone) {
       const Alignment second = alignWith(keyframes_.current(), frame, T_odom_camera_);
@@ -209,7 +209,7 @@ void Odometry::Implementation::track(const Frame& frame,
   if (reason == TrackingReason::kNone) {
     accept(frame, alignment);
   } else {
-    lose(frame, T_odom_camera_start, reason, alignment.isBlind());
+    lose(frame, T_odom_camera_start, reason, alignment.is_live_dark);
   }
 }
 
@@ -293,14 +293,14 @@ void Odometry::Implementation::accept(const Frame& frame, const Alignment& align
 }
 
 void Odometry::Implementation::lose(const Frame& frame, const Eigen::Isometry3d& guess,
-                                    TrackingReason reason, bool is_blind) {
+                                    TrackingReason reason, bool is_dark) {
   ++lost_in_a_row_;
   result_.state = TrackingState::kLost;
   result_.reason = reason;
   // One frame may be bridged by its velocity; after that the last good pose is the best guess.
   result_.T_odom_camera = lost_in_a_row_ == 1 ? guess : T_odom_camera_;
   result_.covariance = result_.alignment_covariance = guessCovariance();
-  const int patience = parameters_.lost_frames * (is_blind ? kPatienceInTheDark : 1);
+  const int patience = parameters_.lost_frames * (is_dark ? kPatienceInTheDark : 1);
   if (lost_in_a_row_ < patience || live_.contrastInView() < kMinContrast ||
       parameters_.keyframe_policy == KeyframePolicy::kFirst) {
     return;

@@ -56,6 +56,22 @@ TEST_F(DarknessTest, DepthLeadsOnHoweverFarTheCameraTurnsMeanwhile) {
   }
 }
 
+// The keyframe is of the dark, and depth does not lead back to where the camera was before: that is
+// looked for as soon as there is light and the camera can have got there.
+TEST_F(DarknessTest, BackInTheLightAndInAKnownPlaceItIsFound) {
+  for (int i = 0; i < kLitFrom; ++i) odometry_.process(frame(i));
+  ASSERT_GT(odometry_.result().keyframes, 2);
+  Frame known = frame(kDarkFrom - 1);
+  known.depth.setTo(0.0F);
+  for (int i = kLitFrom; i < kLitFrom + odometry_.parameters().lost_frames - 1; ++i) {
+    known.stamp = 10.0 + testing::kFramePeriod * i;
+    odometry_.process(known);
+  }
+  EXPECT_EQ(odometry_.result().state, TrackingState::kTracking);
+  EXPECT_EQ(odometry_.result().segment, 0);
+  EXPECT_LT(errorOf(odometry_.result(), kDarkFrom - 1).norm(), 0.02);
+}
+
 TEST_F(DarknessTest, WithoutDepthItIsLostMeanwhile) {
   for (int i = 0; i < kLitFrom; ++i) {
     Frame here = frame(i);
