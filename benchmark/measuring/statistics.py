@@ -2,6 +2,7 @@
 """Reads what programs print and their tables of one row per frame, and sums up."""
 
 import csv
+import math
 
 
 def read_values(text):
@@ -12,6 +13,12 @@ def read_values(text):
 def read_value_file(path):
     with open(path, encoding="utf-8") as file:
         return read_values(file.read())
+
+
+def rpe(figures, which="rmse"):
+    """Metres and degrees of what evaluate_trajectory printed."""
+    return (float(figures[f"rpe_translation_{which}_m"]),
+            float(figures[f"rpe_rotation_{which}_deg"]))
 
 
 def read_rows(path):
@@ -34,6 +41,10 @@ def column(rows, name):
 
 def mean(values):
     return sum(values) / len(values)
+
+
+def geometric_mean(values):
+    return math.exp(mean([math.log(value) for value in values]))
 
 
 def deviation(values):

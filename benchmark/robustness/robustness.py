@@ -20,13 +20,14 @@ ROOT = os.path.dirname(os.path.dirname(HERE))
 sys.path.append(os.path.dirname(HERE))
 
 import events  # noqa: E402
+import models  # noqa: E402
 import shutter as shutters  # noqa: E402
 from measuring import machine, sequences  # noqa: E402  found by the path above
 from measuring.jobs import Folder, Job  # noqa: E402
 from measuring.methods import raw_words  # noqa: E402
 from measuring.programs import MeasuringError, Programs  # noqa: E402
 from measuring.progress import Progress  # noqa: E402
-from measuring.statistics import quantile, read_rows, read_value_file  # noqa: E402
+from measuring.statistics import quantile, read_rows, read_value_file, rpe  # noqa: E402
 from measuring.tables import table  # noqa: E402
 from measuring.trajectories import (  # noqa: E402
     covariance_of, difference, normalised_error, poses_at, read_trajectory)
@@ -129,10 +130,6 @@ class Bench:
                 made += 1
                 keyframe_of[made] = i
         return wrong, rows, poses, truth
-
-
-def rpe(figures, which="rmse"):
-    return (float(figures[f"rpe_translation_{which}_m"]), float(figures[f"rpe_rotation_{which}_deg"]))
 
 
 def cell(figures):
@@ -331,19 +328,19 @@ def covariance(bench):
     print_table(bench, "Covariance: NEES / 6", ["sequence", "mean", "median", "95 %"], rows)
 
 
+def compared(bench):
+    """mivo on lcn, on intensities, and on other maps of the images."""
+    for title, head, rows in models.tables(bench):
+        print_table(bench, title, head, rows)
+
+
 def shutter(bench):
     """Ten seeds with and without a rolling shutter."""
-    rows, progress = [], Progress(1 if bench.options.quick else len(shutters.SEEDS), "shutters")
-    for row in shutters.rows_of(bench):
-        rows.append(row)
-        progress.step(row[0])
-    progress.close()
-    print_table(bench, "Read-out time", shutters.HEAD, rows,
-                shutters.TEXT.format(1e3 * shutters.READOUT_S))
+    print_table(bench, "Read-out time", shutters.HEAD, shutters.rows(bench), shutters.TEXT)
 
 
 PARTS = {"light": light, "darkness": darkness, "loss": loss, "static": static, "rest": rest,
-         "covariance": covariance, "shutter": shutter}
+         "covariance": covariance, "shutter": shutter, "models": compared}
 
 
 def document(bench):

@@ -2,6 +2,7 @@
 """Whether the read-out time is found where there is one, and stays nought where there is none."""
 
 from measuring import sequences
+from measuring.progress import Progress
 from measuring.statistics import column, read_rows, read_value_file
 
 SCENES = ("room", "office", "corridor")
@@ -10,8 +11,8 @@ SEEDS = range(11, 21)
 READOUT_S = 0.02
 HEAD = ["sequence", "global: found, longest ms", "rolling: found ms",
         "RPE global", "RPE rolling: found", "given", "ignored"]
-TEXT = """
-Ten seeds, each filmed with all rows at once and with {:.0f} ms from the first row to the last; scenes
+TEXT = f"""
+Ten seeds, each filmed with all rows at once and with {1e3 * READOUT_S:.0f} ms from the first row to the last; scenes
 and paths take turns. The read-out time that the odometry finds by itself at the end of each, and the
 longest that it believed in on the way where there is none. RPE over 1 s in m, of all frames: those
 before the estimate is made, too."""
@@ -40,13 +41,21 @@ def error(figures):
     return "{:.4f}".format(float(figures["rpe_translation_rmse_m"]))
 
 
-def rows_of(bench):
-    """One row for each seed, while the films are made."""
-    for seed in SEEDS[:1] if bench.options.quick else SEEDS:
-        still, rolling = film(bench, seed, 0), film(bench, seed, READOUT_S)
-        at_once, found = bench.run("mivo", still), bench.run("mivo", rolling)
-        given = bench.run("mivo", rolling, "--set", f"rolling_shutter_readout={READOUT_S}")
-        ignored = bench.run("mivo", rolling, "--set", "rolling_shutter_estimation=false")
-        yield [f"{SCENES[seed % 3]}{seed} {PATHS[seed // 3 % 3]}", f"{longest(at_once):.1f}",
-               f"{at_the_end(found):.1f}"] + [error(run)
-                                              for run in (at_once, found, given, ignored)]
+def row_of(bench, seed):
+    still, rolling = film(bench, seed, 0), film(bench, seed, READOUT_S)
+    at_once, found = bench.run("mivo", still), bench.run("mivo", rolling)
+    given = bench.run("mivo", rolling, "--set", f"rolling_shutter_readout={READOUT_S}")
+    ignored = bench.run("mivo", rolling, "--set", "rolling_shutter_estimation=false")
+    return [f"{SCENES[seed % 3]}{seed} {PATHS[seed // 3 % 3]}", f"{longest(at_once):.1f}",
+            f"{at_the_end(found):.1f}"] + [error(run) for run in (at_once, found, given, ignored)]
+
+
+def rows(bench):
+    """One for each seed."""
+    seeds = SEEDS[:1] if bench.options.quick else SEEDS
+    table, progress = [], Progress(len(seeds), "shutters")
+    for seed in seeds:
+        table.append(row_of(bench, seed))
+        progress.step(table[-1][0])
+    progress.close()
+    return table
