@@ -71,8 +71,9 @@ TEST_F(RunSequenceTest, StatisticsHaveARowPerFrameAndANamePerColumn) {
   std::string header;
   std::getline(lines, header);
   EXPECT_EQ(header.rfind("stamp,state,reason,keyframe,", 0), 0U);
-  for (const char* name : {",iterations_0,", ",points_4,", ",mutual_information,",
-                           ",residual_scale,", ",overlap,", ",rolling_shutter_readout,", ",sigma_tx,", ",sigma_rz,"}) {
+  for (const char* name :
+       {",iterations_0,", ",points_4,", ",mutual_information,", ",residual_scale,", ",overlap,",
+        ",rolling_shutter_readout,", ",sigma_tx,", ",sigma_rz,"}) {
     EXPECT_NE(header.find(name), std::string::npos) << name;
   }
   const auto columns = std::count(header.begin(), header.end(), ',');
