@@ -173,6 +173,8 @@ def light(bench):
 
 
 def judge_light(bench, default, peers):
+    if not default:
+        return
     ratios, generated = [], []
     for (name, lamps), (kind, (metres, degrees)) in default.items():
         if lamps != "constant":

@@ -57,6 +57,7 @@ TEST_F(KeyframePolicyTest, TooLittleInViewNeedsOne) {
 }
 
 TEST_F(KeyframePolicyTest, LessInformationThanAtFirstNeedsOne) {
+  parameters_.keyframe_information = 0.5;
   alignment_.mutual_information = 0.51;
   EXPECT_FALSE(isNeeded());
   alignment_.mutual_information = 0.49;
@@ -72,6 +73,7 @@ TEST_F(KeyframePolicyTest, AfterAKeyframeOfTheDarkTheFirstLitFrameIsOne) {
 }
 
 TEST_F(KeyframePolicyTest, WithSsdAloneTheResidualsSpeak) {
+  parameters_.keyframe_information = 0.5;
   first_.mutual_information = 0.0;
   alignment_.mutual_information = 0.0;
   alignment_.residual_scale = 3.9;
