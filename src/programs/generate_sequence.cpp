@@ -117,7 +117,9 @@ void addDepthOptions(mivo::CommandLine& line, Request& request) {
                                                         number(s.depth.units_per_metre, "5000"),
                                                         "steps per metre in the depth images")(
       "depth-offset", mivo::twoNumbers(&request.depth_offset)->value_name("X Y"),
-      "pixels by which depth is registered wrongly; none by default");
+      "pixels by which depth is registered wrongly; none by default")(
+      "depth-time-offset", number(s.depth_time_offset, "0"),
+      "s, by which depth is taken later than colour; negative: earlier");
 }
 
 mivo::Distortion parseDistortion(const std::string& text) {

@@ -18,7 +18,8 @@ constexpr double kFirstStamp = 1.0;  // s; 0 would look like a stamp that was ne
 constexpr double kSensitivity = 2.2;
 constexpr double kMostLensBlur = 20.0;  // pixels
 constexpr int kMostSamples = 48;
-constexpr double kNearDepth = 1.0;  // m, at which the extent of motion blur is estimated
+constexpr double kMostDepthTime = 0.1;  // s, between colour and depth, as the odometry allows
+constexpr double kNearDepth = 1.0;      // m, at which the extent of motion blur is estimated
 
 // Which of the many random numbers of a sequence.
 enum Stream : std::uint64_t { kLightMap = 1, kPath, kColour, kRight, kDepth };
@@ -35,10 +36,12 @@ const GeneratorOptions& checked(const GeneratorOptions& options) {
       !(sensor.gain >= 0.0) || sensor.samples < 1 || sensor.samples > kMostSamples ||
       !(sensor.readout >= 0.0) || sensor.readout > 1.0 / options.rate ||
       !(sensor.stereo_baseline >= 0.0) || !(sensor.lens_blur >= 0.0) ||
-      sensor.lens_blur > kMostLensBlur) {
+      sensor.lens_blur > kMostLensBlur || !(std::abs(sensor.depth_time_offset) <= kMostDepthTime)) {
     throw Error(
         "generator: exposure and read-out time must be within a frame's period, samples within "
-        "1..48, gain and stereo baseline not negative, lens blur within 0..20 pixels");
+        "1..48, gain and stereo baseline not negative, lens blur within 0..20 pixels, the time "
+        "offset "
+        "of depth within 0.1 s");
   }
   return options;
 }
@@ -148,8 +151,10 @@ SyntheticFrame SequenceGenerator::next() {
     frame.right = film([&](double time) { return Eigen::Isometry3d(path_.poseAt(time) * right); },
                        shutter, frame.exposure, hashOf(options_.seed, kRight, index));
   }
+  Shutter depth_shutter = shutter;
+  depth_shutter.mid_time += options_.sensor.depth_time_offset;
   const SurfaceImage surface = renderer_.renderSurface(
-      pose, [this](double time) { return lighting_.at(time); }, shutter,
+      pose, [this](double time) { return lighting_.at(time); }, depth_shutter,
       options_.sensor.depth_offset.cast<float>());
   frame.exact_depth = surface.depth;
   frame.depth = depth_sensor_.sense(surface, hashOf(options_.seed, kDepth, index));

@@ -181,6 +181,23 @@ TEST(SequenceGenerator, DepthOffsetShiftsTheDepthImage) {
   EXPECT_LE(difference(shifted(cv::Rect(0, 0, 157, 118)), exact(cv::Rect(3, 2, 157, 118))), 1.0);
 }
 
+TEST(SequenceGenerator, DepthIsTakenLaterByItsTimeOffset) {
+  GeneratorOptions options = smallOptions();
+  options.frames = 2;
+  options.sensor.makeIdeal();
+  const std::vector<SyntheticFrame> together = film(options);
+  // A whole frame period later: the second frame's depth beside the first one's colour.
+  options.sensor.depth_time_offset = 1.0 / options.rate;
+  const std::vector<SyntheticFrame> later = film(options);
+  EXPECT_EQ(difference(later[0].exact_depth, together[1].exact_depth), 0.0);
+  EXPECT_EQ(difference(later[0].colour, together[0].colour), 0.0);
+  EXPECT_GT(difference(later[0].exact_depth, together[0].exact_depth), 0.0);
+  options.sensor.depth_time_offset = -1.0 / options.rate;
+  EXPECT_EQ(difference(film(options)[1].exact_depth, together[0].exact_depth), 0.0);
+  options.sensor.depth_time_offset = 0.2;
+  EXPECT_THROW(SequenceGenerator{options}, Error);
+}
+
 TEST(SequenceGenerator, AutomaticExposureLagsBehindTheLight) {
   GeneratorOptions options = smallOptions();
   options.camera = xtionCamera(64, 48);

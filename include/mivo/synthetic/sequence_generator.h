@@ -30,8 +30,9 @@ struct SensorOptions {
   double readout = 0.0;    ///< s, rolling shutter; 0: global
   DepthSensorOptions depth;
   Eigen::Vector2d depth_offset =
-      Eigen::Vector2d::Zero();   ///< pixels, faulty registration (Renderer::renderSurface)
-  double stereo_baseline = 0.0;  ///< m to the right camera; 0: there is none
+      Eigen::Vector2d::Zero();     ///< pixels, faulty registration (Renderer::renderSurface)
+  double depth_time_offset = 0.0;  ///< s, by which a row of depth is read later than that of colour
+  double stereo_baseline = 0.0;    ///< m to the right camera; 0: there is none
 
   /// Switches noise, motion blur, quantisation and holes off. The lens stays: without it the image
   /// would not be band-limited, and no interpolation of it exact.
