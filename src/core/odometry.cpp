@@ -14,6 +14,7 @@
 #include "mivo/core/motion_model.h"
 #include "mivo/core/pose_covariance.h"
 #include "mivo/core/recovery.h"
+#include "mivo/core/shutter_model.h"
 #include "mivo/core/tracker.h"
 
 namespace mivo {
@@ -70,13 +71,12 @@ class Odometry::Implementation {
             bool is_dark);
   bool makeKeyframe(const Eigen::Isometry3d& T_odom_camera, const Vector6& twist_per_period,
                     const Matrix6& covariance, double usual_contrast = 0.0);
-  double readout() const;
-  ShutterTimes shutter() const;
+  ShutterTimes shutter() const { return shutter_.times(parameters_, motion_.period(parameters_)); }
   TrackingReason judge(const Frame& frame, const PosedKeyframe& keyframe,
                        const Alignment& alignment) const;
 
   MotionModel motion_;
-  ReadoutEstimator readout_;
+  ShutterModel shutter_;
   KeyframeQuality first_quality_;  // of the first frame tracked against the keyframe
   Eigen::Isometry3d T_odom_camera_ = Eigen::Isometry3d::Identity();  // last pose to be trusted
   double pose_stamp_ = 0.0;
@@ -138,7 +138,10 @@ void Odometry::Implementation::process(const Frame& frame, const Eigen::Isometry
   }
   result_.keyframes = num_keyframes_;
   result_.segment = segment_;
-  result_.rolling_shutter_readout = readout() * motion_.period(parameters_);
+  const double period = motion_.period(parameters_);
+  const ShutterTimes times = shutter_.times(parameters_, period);
+  result_.rolling_shutter_readout = times.readout * period;
+  result_.depth_time_offset = times.depth_offset * period;
   result_.milliseconds.total = threadMilliseconds() - begin;
 }
 
@@ -275,7 +278,7 @@ void Odometry::Implementation::accept(const Frame& frame, const Alignment& align
   result_.state = quality.state;
   result_.reason = quality.reason;
   // Held against a keyframe whose own velocity is not known, a frame says nothing about the rows.
-  if (!keyframe.keyframe.twistPerPeriod().isZero(0.0)) readout_.add(alignment.readout);
+  if (!keyframe.keyframe.twistPerPeriod().isZero(0.0)) shutter_.add(alignment);
   result_.T_odom_camera = T_odom_camera_;
   result_.alignment_covariance =
       liveCovariance(alignment.T_live_ref, alignment.covariance, Matrix6::Zero());
@@ -318,28 +321,11 @@ void Odometry::Implementation::lose(const Frame& frame, const Eigen::Isometry3d&
   pose_stamp_ = frame.stamp;
 }
 
-/// Time to read the rows of an image as a share of the frame period.
-double Odometry::Implementation::readout() const {
-  if (parameters_.rolling_shutter_readout == 0.0) {
-    return parameters_.rolling_shutter_estimation ? readout_.readout() : 0.0;
-  }
-  const double period = motion_.period(parameters_);
-  return period > 0.0 ? std::min(1.0, parameters_.rolling_shutter_readout / period) : 0.0;
-}
-
-ShutterTimes Odometry::Implementation::shutter() const {
-  ShutterTimes times;
-  times.readout = readout();
-  const double period = motion_.period(parameters_);
-  if (period > 0.0) times.depth_offset = parameters_.depth_time_offset / period;
-  return times;
-}
-
 bool Odometry::Implementation::makeKeyframe(const Eigen::Isometry3d& T_odom_camera,
                                             const Vector6& twist_per_period,
                                             const Matrix6& covariance, double usual_contrast) {
   const double begin = threadMilliseconds();
-  readout_.endKeyframe();
+  shutter_.endKeyframe(parameters_, motion_.period(parameters_));
   PosedKeyframe& candidate = keyframes_.candidate();
   candidate.keyframe.choosePoints(live_, twist_per_period, shutter(), parameters_);
   if (usual_contrast > candidate.keyframe.contrastInView() && parameters_.geometric_term) {

@@ -79,11 +79,7 @@ ReadoutMeasurement measureReadout(const ReferencePoints& points, const Residuals
                                   const RowVelocities& velocities) {
   // A longer read-out moves a point of the keyframe, as the live image sees it, by
   // tau_live (live velocity) - tau_keyframe (keyframe velocity), both in the keyframe's axes.
-  const Eigen::Matrix3d R = velocities.T_live_ref.linear();
-  const Eigen::Vector3d t = velocities.T_live_ref.translation();
-  Vector6 live;
-  live << R.transpose() * (velocities.live.tail<3>().cross(t) + velocities.live.head<3>()),
-      R.transpose() * velocities.live.tail<3>();
+  const Vector6 live = velocities.liveInKeyframe();
   Recycled<std::vector<float>> weights;
   weights->resize(points.size());
   kernels::active().robustWeights(RobustWeight::kTukey, static_cast<float>(scale),

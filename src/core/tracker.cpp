@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "mivo/core/cpu_clock.h"
+#include "mivo/core/depth_offset_estimator.h"
 #include "mivo/core/geometric_term.h"
 #include "mivo/core/mi_term.h"
 #include "mivo/core/minimise.h"
@@ -18,8 +19,8 @@
 namespace mivo {
 namespace {
 
-// Read-out times are measured where noise is already averaged, but rows still differ.
-constexpr int kReadoutLevel = 1;
+// The shutter is measured where noise is already averaged, but rows still differ.
+constexpr int kShutterLevel = 1;
 // Neighbouring points say much the same: more of them do not make chance less likely.
 constexpr int kIndependentPoints = 1500;
 // Fewer blocks of the image say nothing about how much they err together.
@@ -111,7 +112,7 @@ class LevelAligner {
     }
     if (terms_->empty()) return;
     // Levels whose result is kept are finished with care.
-    const double tolerance = level_ > kReadoutLevel ? parameters_.coarse_tolerance : 1.0;
+    const double tolerance = level_ > kShutterLevel ? parameters_.coarse_tolerance : 1.0;
     // Mutual information is rugged near its maximum. Where no SSD follows that mends it, no step
     // goes untried.
     const double trusted =
@@ -204,18 +205,33 @@ class LevelAligner {
     alignment_.correlation = term.correlation();
     alignment_.sees_image = alignment_.sees_image && term.isInformative() &&
                             alignment_.correlation >= parameters_.lost_correlation;
-    const bool is_wanted =
-        parameters_.rolling_shutter_estimation && parameters_.rolling_shutter_readout == 0.0;
-    if (is_wanted && level_ == kReadoutLevel && alignment_.sees_image) measureReadoutHere(term);
+    if (level_ == kShutterLevel && alignment_.sees_image) measureShutter(term, geometry);
   }
 
-  void measureReadoutHere(const SsdTerm& term) {
+  void measureShutter(SsdTerm& term, GeometricTerm* geometry) {
     RowVelocities velocities;
     velocities.live = twistPerPeriod(task_, alignment_.T_live_ref);
     velocities.keyframe = task_.keyframe.twistPerPeriod();
     velocities.T_live_ref = alignment_.T_live_ref;
-    alignment_.readout = measureReadout(points_, term.residuals(), term.samples().v,
-                                        warp_.camera().height, term.scale(), velocities);
+    if (parameters_.rolling_shutter_estimation && parameters_.rolling_shutter_readout == 0.0) {
+      alignment_.readout = measureReadout(points_, term.residuals(), term.samples().v,
+                                          warp_.camera().height, term.scale(), velocities);
+    }
+    if (parameters_.depth_time_offset_estimation && geometry != nullptr) {
+      // The two stand at one pose, be it a step before the last: the measurement allows for that.
+      const auto median_depth = static_cast<double>(points_.median_depth);
+      alignment_.depth_offset =
+          measureDepthOffset(modelOf(term), modelOf(*geometry), velocities, median_depth);
+    }
+  }
+
+  TermModel modelOf(CostTerm& term) const {
+    TermModel result;
+    result.model = term.linearise(parameters_.robust_scale_iterations);  // keeps its scale
+    if (term.gradientCovariance(result.gradient_covariance) < kMinBlocks) {
+      result.gradient_covariance = result.model.hessian;
+    }
+    return result;
   }
 
   const AlignmentTask& task_;

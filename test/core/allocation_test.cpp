@@ -60,6 +60,7 @@ TEST(AllocationTest, AFrameAllocatesNothingOnceTheBuffersHaveGrown) {
       parameters.method = method;
       parameters.photometric_model = model;
       parameters.keyframe_translation = 0.03;
+      parameters.depth_time_offset_estimation = true;
       int keyframes = 0;
       EXPECT_EQ(allocationsOfLastWalk(recording, parameters, 16, keyframes), 0U)
           << "method " << static_cast<int>(method) << ", model " << static_cast<int>(model);

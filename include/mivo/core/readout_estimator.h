@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <Eigen/Geometry>
 #include <vector>
 
 #include "mivo/core/reference_points.h"
 #include "mivo/core/robust_sum.h"
-#include "mivo/core/se3.h"
+#include "mivo/core/row_motion.h"
 
 namespace mivo {
 
@@ -15,14 +14,6 @@ namespace mivo {
 struct ReadoutMeasurement {
   double correction = 0.0;
   double information = 0.0;
-};
-
-/// Scene motion per frame period in the axes of the keyframe, of the live camera and of the
-/// keyframe when it was taken, and the pose between them.
-struct RowVelocities {
-  Vector6 live = Vector6::Zero();      ///< (v, w) in the axes of the live camera
-  Vector6 keyframe = Vector6::Zero();  ///< (v, w) in the axes of the keyframe
-  Eigen::Isometry3d T_live_ref = Eigen::Isometry3d::Identity();
 };
 
 /// Measures from the residuals at the end of a level: the read-out is a seventh unknown beside the

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Geometry>
+
 #include "mivo/core/se3.h"
 
 namespace mivo {
@@ -28,6 +30,24 @@ struct RowMotion {
   /// Displacement of a point of a row, metres.
   Eigen::Vector3d displacement(const Eigen::Vector3d& point, double row, double height) const {
     return rowTime(row, height) * (twist.tail<3>().cross(point) + twist.head<3>());
+  }
+};
+
+/// Scene motion per frame period as the live camera and the keyframe saw it, each when it was
+/// taken, and the pose between them.
+struct RowVelocities {
+  Vector6 live = Vector6::Zero();      ///< (v, w) in the axes of the live camera
+  Vector6 keyframe = Vector6::Zero();  ///< (v, w) in the axes of the keyframe
+  Eigen::Isometry3d T_live_ref = Eigen::Isometry3d::Identity();
+
+  /// That of the live camera in the axes of the keyframe.
+  Vector6 liveInKeyframe() const {
+    const Eigen::Matrix3d R = T_live_ref.linear();
+    const Eigen::Vector3d t = T_live_ref.translation();
+    Vector6 velocity;
+    velocity << R.transpose() * (live.tail<3>().cross(t) + live.head<3>()),
+        R.transpose() * live.tail<3>();
+    return velocity;
   }
 };
 

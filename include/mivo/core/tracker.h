@@ -5,6 +5,7 @@
 #include <array>
 
 #include "mivo/core/camera.h"
+#include "mivo/core/depth_offset_estimator.h"
 #include "mivo/core/frame_pyramid.h"
 #include "mivo/core/keyframe.h"
 #include "mivo/core/motion_prior_term.h"
@@ -38,18 +39,19 @@ struct Alignment {
   Eigen::Isometry3d T_live_ref = Eigen::Isometry3d::Identity();
   Matrix6 information = Matrix6::Identity();  ///< of the increment at T_live_ref, nats
   Matrix6 covariance = Matrix6::Identity();   ///< of the increment's error
-  double condition = 0.0;           ///< weakest over strongest curvature on the finest level
-  int points = 0;                   ///< in view on the finest level
-  double overlap = 0.0;             ///< fraction of the finest level's points in view
-  bool sees_image = false;          ///< the images have something in common on the finest level
-  bool is_live_dark = false;        ///< the live image shows too little to be compared
-  bool is_keyframe_dark = false;    ///< that of the keyframe does
-  bool sees_depth = false;          ///< the geometric term took part there
-  double mutual_information = 0.0;  ///< nats, on the finest level that uses it
-  double residual_scale = 0.0;      ///< grey levels, on the finest SSD level
-  double depth_scale = 0.0;         ///< residuals of the geometric term in deviations (or 0)
-  double correlation = 0.0;         ///< of the images, on the finest SSD level
-  ReadoutMeasurement readout;       ///< what the frame says about it
+  double condition = 0.0;               ///< weakest over strongest curvature on the finest level
+  int points = 0;                       ///< in view on the finest level
+  double overlap = 0.0;                 ///< fraction of the finest level's points in view
+  bool sees_image = false;              ///< the images have something in common on the finest level
+  bool is_live_dark = false;            ///< the live image shows too little to be compared
+  bool is_keyframe_dark = false;        ///< that of the keyframe does
+  bool sees_depth = false;              ///< the geometric term took part there
+  double mutual_information = 0.0;      ///< nats, on the finest level that uses it
+  double residual_scale = 0.0;          ///< grey levels, on the finest SSD level
+  double depth_scale = 0.0;             ///< residuals of the geometric term in deviations (or 0)
+  double correlation = 0.0;             ///< of the images, on the finest SSD level
+  ReadoutMeasurement readout;           ///< what the frame says about it
+  DepthOffsetMeasurement depth_offset;  ///< the same
   int num_levels = 0;
   std::array<LevelRecord, kMaxLevels> levels{};  ///< coarsest first
 

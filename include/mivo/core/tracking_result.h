@@ -91,6 +91,7 @@ struct TrackingResult {
 
   double correlation = 0.0;  ///< of frame and keyframe, -1..1, on the finest SSD level (or 0)
   double rolling_shutter_readout = 0.0;  ///< s, given or estimated; 0: global shutter
+  double depth_time_offset = 0.0;  ///< s from a row of colour to that of depth, given or estimated
 
   int num_levels = 0;  ///< entries of `levels`, coarsest first
   std::array<LevelRecord, kMaxLevels> levels{};
