@@ -33,6 +33,7 @@ StatisticsFile::StatisticsFile(const std::string& path, Overwrite overwrite, int
   for (int i = 0; i < 6; ++i) {
     for (int j = i; j < 6; ++j) header += fmt::format(",covariance_{}{}", i, j);
   }
+  header += ",depth_time_offset";
   file_.write(header + "\n");
 }
 
@@ -55,6 +56,7 @@ void StatisticsFile::write(double stamp, const TrackingResult& result, double cp
   for (int i = 0; i < 6; ++i) {
     for (int j = i; j < 6; ++j) row += fmt::format(",{:.9g}", result.covariance(i, j));
   }
+  row += fmt::format(",{:.5f}", result.depth_time_offset);
   file_.write(row + "\n");
 }
 

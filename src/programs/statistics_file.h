@@ -15,7 +15,7 @@ namespace mivo {
 /// mutual_information (nats), residual_scale (grey levels), overlap (0..1); sigma_tx, sigma_ty,
 /// sigma_tz (m), sigma_rx, sigma_ry, sigma_rz (rad), square roots of the covariance's diagonal;
 /// ms_pyramid, ms_tracking, ms_keyframe, ms_total, processor time by stage; cpu_ms, processor time
-/// of the process.
+/// of the process; covariance_00 to covariance_55, its upper triangle; depth_time_offset (s).
 class StatisticsFile {
  public:
   /// Throws Error when the file exists and may not be replaced, or cannot be created.

@@ -37,6 +37,7 @@ void count(const TrackingResult& result, TrackingSummary& summary) {
   summary.keyframes = result.keyframes;
   summary.segments = result.segment + 1;
   summary.rolling_shutter_readout = result.rolling_shutter_readout;
+  summary.depth_time_offset = result.depth_time_offset;
 }
 
 const TrackingResult& process(Odometry& odometry, const Frame& frame,
@@ -100,6 +101,7 @@ void print(std::ostream& stream, const TrackingSummary& summary) {
          << "keyframes: " << summary.keyframes << "\n"
          << "segments: " << summary.segments << "\n"
          << "rolling_shutter_readout_s: " << summary.rolling_shutter_readout << "\n"
+         << "depth_time_offset_s: " << summary.depth_time_offset << "\n"
          << "cpu_ms_median: " << summary.cpu_ms_median << "\n"
          << "cpu_ms_p95: " << summary.cpu_ms_p95 << "\n";
 }

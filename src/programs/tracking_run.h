@@ -64,6 +64,7 @@ struct TrackingSummary {
   int keyframes = 0;
   int segments = 0;
   double rolling_shutter_readout = 0.0;  ///< s, at the end; 0: global shutter
+  double depth_time_offset = 0.0;        ///< s, at the end: given or estimated
   double cpu_ms_median = 0.0;  ///< of the process, all threads, from decoded images to the pose
   double cpu_ms_p95 = 0.0;
 };

@@ -81,6 +81,8 @@ void OdometryDiagnostics::tracking(Wrapper& status) {
   status.addf("overlap", "%.2f", last_.overlap);
   status.addf("mutual information (nats)", "%.3f", last_.mutual_information);
   status.addf("residual scale (grey levels)", "%.2f", last_.residual_scale);
+  status.addf("rolling shutter read-out (ms)", "%.1f", 1e3 * last_.rolling_shutter_readout);
+  status.addf("time offset of depth (ms)", "%.1f", 1e3 * last_.depth_time_offset);
   if (!fault_.empty()) {
     status.summary(Level::ERROR, "idle: " + fault_);
   } else if (paused_) {

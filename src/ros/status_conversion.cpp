@@ -71,6 +71,8 @@ TrackingStatus toMessage(const TrackingResult& result) {
   message.overlap = result.overlap;
   message.mutual_information = result.mutual_information;
   message.residual_scale = result.residual_scale;
+  message.rolling_shutter_readout = result.rolling_shutter_readout;
+  message.depth_time_offset = result.depth_time_offset;
   for (int i = 0; i < result.num_levels; ++i) {
     message.levels.push_back(toMessage(result.levels[static_cast<std::size_t>(i)]));
   }

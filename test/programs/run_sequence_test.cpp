@@ -58,6 +58,7 @@ TEST_F(RunSequenceTest, WritesAPoseForEveryFrame) {
   EXPECT_EQ(valueOf(result.output, "degraded"), 0);
   EXPECT_EQ(valueOf(result.output, "lost"), 0);
   EXPECT_EQ(valueOf(result.output, "skipped_frames"), 0);
+  EXPECT_EQ(valueOf(result.output, "depth_time_offset_s"), 0);
   EXPECT_GE(valueOf(result.output, "keyframes"), 1);
   const double median = valueOf(result.output, "cpu_ms_median");
   EXPECT_GT(median, 0.0);
@@ -76,6 +77,8 @@ TEST_F(RunSequenceTest, StatisticsHaveARowPerFrameAndANamePerColumn) {
         ",rolling_shutter_readout,", ",sigma_tx,", ",sigma_rz,"}) {
     EXPECT_NE(header.find(name), std::string::npos) << name;
   }
+  // At the end, so that what reads columns by number still finds the others.
+  EXPECT_EQ(header.substr(header.rfind(',')), ",depth_time_offset");
   const auto columns = std::count(header.begin(), header.end(), ',');
   int rows = 0;
   for (std::string row; std::getline(lines, row); ++rows) {
