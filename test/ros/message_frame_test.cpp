@@ -91,6 +91,15 @@ TEST(StatusTest, CodesAreThoseOfTheMessageDefinition) {
   }
 }
 
+TEST(StatusTest, TheShutterIsTold) {
+  TrackingResult result;
+  result.rolling_shutter_readout = 0.02;
+  result.depth_time_offset = -0.01;
+  const TrackingStatus message = toMessage(result);
+  EXPECT_EQ(0.02, message.rolling_shutter_readout);
+  EXPECT_EQ(-0.01, message.depth_time_offset);
+}
+
 TEST(StatusTest, LevelsKeepTheirOrder) {
   TrackingResult result;
   result.num_levels = 2;
