@@ -15,6 +15,8 @@ constexpr double kContrastShare = 0.1;  // constant as a share of the frame's ow
 constexpr double kMinConstant = 0.2;    // grey levels
 // A Gaussian reduction leaves about this much of white noise from level to level.
 constexpr double kNoiseReduction = 0.3;
+// What smoothing leaves of the noise on level 0, 6/16.
+constexpr double kNoiseSmoothed = 0.375;
 // The normalised image of a natural scene spans about +-2: 55 grey levels each.
 constexpr float kMiddle = 128.0F;
 constexpr float kGreyLevels = 55.0F;
@@ -84,7 +86,8 @@ void ContrastMaps::build(const ImagePyramid& pyramid, int num_levels) {
     repeatEnds(map.pairs);
     const double contrast = std::sqrt(variances / static_cast<double>(reduced.total()));
     if (l <= 1) contrast_ = contrast;
-    map.constant = static_cast<float>(std::max({kContrastShare * contrast, noise, kMinConstant}));
+    map.constant = static_cast<float>(std::max(
+        {kContrastShare * contrast, l == 0 ? kNoiseSmoothed * noise : noise, kMinConstant}));
     noise *= kNoiseReduction;
   }
 }

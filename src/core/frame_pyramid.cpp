@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mivo/core/frame_pyramid.h"
 
+#include <cmath>
 #include <opencv2/core.hpp>
+
+#include "mivo/core/image_view.h"
+#include "mivo/core/kernels/kernels.h"
 
 namespace mivo {
 namespace {
@@ -16,12 +20,26 @@ bool usesMutualInformation(const Parameters& parameters, int level) {
          (parameters.method == Method::kHybrid && level >= parameters.switch_level);
 }
 
+/// The few points that are compared then tell of their neighbours, too: noise is averaged out, and
+/// interpolation between pixels errs less. Further levels are smooth by their making.
+void FramePyramid::smooth(double saturation) {
+  const cv::Mat& image = images_.level(0);
+  smoothed_.create(image.size(), CV_8UC1);
+  scratch_.resize(kernels::imageScratch(image.cols));
+  const auto largest = static_cast<std::uint8_t>(std::ceil(saturation) - 1.0);
+  kernels::active().smooth(view(image), largest, smoothed_.ptr<std::uint8_t>(),
+                           static_cast<std::ptrdiff_t>(smoothed_.step1()), scratch_.data());
+}
+
 void FramePyramid::build(const Frame& frame, const Parameters& parameters) {
   frame_ = frame;
   num_levels_ = usableLevels(frame.image.cols, frame.image.rows, parameters.levels);
   is_normalised_ = parameters.photometric_model == PhotometricModel::kLcn;
   images_.build(frame.image, num_levels_ + (is_normalised_ ? kContrastLevels : 0));
-  if (is_normalised_) contrast_.build(images_, num_levels_);
+  if (is_normalised_) {
+    contrast_.build(images_, num_levels_);
+    smooth(parameters.saturation);
+  }
   normalised_.resize(static_cast<std::size_t>(num_levels_));
   ranges_.resize(static_cast<std::size_t>(num_levels_));
   for (int l = 0; l < num_levels_; ++l) {

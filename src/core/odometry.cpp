@@ -438,7 +438,7 @@ cv::Mat Odometry::residualImage() const {
   if (!hasKeyframe()) return {};
   const Implementation& self = *implementation_;
   const PosedKeyframe& current = self.keyframes_.current();
-  return makeResidualImage(current.keyframe, self.live_.grey(0), self.camera_,
+  return makeResidualImage(current.keyframe, self.live_.image(), self.camera_,
                            self.result_.T_odom_camera.inverse() * current.T_odom_keyframe);
 }
 

@@ -91,7 +91,7 @@ TEST_F(DepthOffsetTest, TheGradientIsThatOfTheGeometricTerm) {
 TEST_F(DepthOffsetTest, APairOfFramesTellsItWithItsSign) {
   for (const double offset : {-0.3, -0.2, 0.0, 0.2, 0.3}) {
     const DepthOffsetMeasurement measurement = measure(offset, 0.0);
-    EXPECT_NEAR(measurement.correction, offset, 0.08) << offset;
+    EXPECT_NEAR(measurement.correction, offset, 0.1) << offset;  // to first order
     EXPECT_GT(measurement.information, 100.0) << offset;
   }
 }

@@ -23,8 +23,13 @@ class FramePyramid {
   int numLevels() const { return num_levels_; }
   bool isNormalised() const { return is_normalised_; }
 
-  /// CV_8UC1 on level 0, CV_32FC1 0..255 above.
-  const cv::Mat& grey(int level) const { return images_.level(level); }
+  /// The frame's image as it came, CV_8UC1.
+  const cv::Mat& image() const { return images_.level(0); }
+  /// What is compared by SSD: CV_8UC1 on level 0, smoothed if isNormalised(), CV_32FC1 0..255
+  /// above.
+  const cv::Mat& grey(int level) const {
+    return level == 0 && is_normalised_ ? smoothed_ : images_.level(level);
+  }
   const ContrastMaps& contrast() const { return contrast_; }  ///< if isNormalised()
 
   /// What mutual information compares on a level that uses it: CV_32FC1 or CV_8UC1, 0..255.
@@ -41,8 +46,12 @@ class FramePyramid {
   double contrastInView() const;
 
  private:
+  void smooth(double saturation);
+
   Frame frame_;
   ImagePyramid images_;
+  cv::Mat smoothed_;
+  std::vector<float> scratch_;
   ContrastMaps contrast_;
   std::vector<cv::Mat> normalised_;
   std::vector<IntensityRange> ranges_;

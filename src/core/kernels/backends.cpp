@@ -32,6 +32,7 @@ const Kernels& scalar() {
       reference::logarithms,
       reference::informationDerivatives,
       reference::reduce,
+      reference::smooth,
       reference::contrastMap,
       reference::normaliseImage,
       reference::gradientRow,

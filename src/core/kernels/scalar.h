@@ -56,6 +56,8 @@ void keepSmooth(const float* const depth[3], int width, float edge_ratio, int fi
                 std::uint8_t* candidates);
 
 void reduce(const ImageView& fine, float* coarse, std::ptrdiff_t coarse_stride, float* scratch);
+void smooth(const ImageView& image, std::uint8_t largest, std::uint8_t* smoothed,
+            std::ptrdiff_t smoothed_stride, float* scratch);
 double contrastMap(const ImageView& image, float* pairs, std::ptrdiff_t pairs_stride,
                    float* scratch);
 void normaliseImage(const ImageView& image, const ContrastView& contrast,

@@ -77,6 +77,25 @@ void reduce(const ImageView& fine, float* coarse, std::ptrdiff_t coarse_stride, 
   }
 }
 
+void smooth(const ImageView& image, std::uint8_t largest, std::uint8_t* smoothed,
+            std::ptrdiff_t smoothed_stride, float* /*scratch*/) {
+  constexpr int kWeights[3] = {1, 2, 1};
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width; ++x) {
+      int sum = 0;
+      for (int j = -1; j <= 1; ++j) {
+        const std::uint8_t* row = image.bytes + mirrored(y + j, image.height) * image.stride;
+        for (int i = -1; i <= 1; ++i) {
+          sum += kWeights[j + 1] * kWeights[i + 1] * row[mirrored(x + i, image.width)];
+        }
+      }
+      smoothed[y * smoothed_stride + x] = image.bytes[y * image.stride + x] > largest
+                                              ? std::uint8_t{255}
+                                              : static_cast<std::uint8_t>((sum + 8) / 16);
+    }
+  }
+}
+
 double contrastMap(const ImageView& image, float* pairs, std::ptrdiff_t pairs_stride,
                    float* scratch) {
   constexpr float kInverseArea = 1.0F / ((2 * kRadius + 1) * (2 * kRadius + 1));

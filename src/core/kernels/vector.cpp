@@ -57,6 +57,7 @@ const Kernels& table() {
       logarithms,
       informationDerivatives,
       reduce,
+      smooth,
       contrastMap,
       normaliseImage,
       gradientRow,

@@ -66,6 +66,39 @@ void forEachImage(const Test& test) {
   }
 }
 
+TEST(ImageKernelTest, SmoothsLikeOpenCv) {
+  forEachImage([](const kernels::Kernels& kernels, const Size& size) {
+    const cv::Mat bytes = randomBytes(size, 1);
+    cv::Mat expected;
+    cv::sepFilter2D(bytes, expected, CV_32F, cv::Vec3f(0.25F, 0.5F, 0.25F),
+                    cv::Vec3f(0.25F, 0.5F, 0.25F), cv::Point(-1, -1), 0.0, cv::BORDER_REFLECT_101);
+    cv::Mat actual(size.height, size.width + 1, CV_8UC1, cv::Scalar(7));
+    std::vector<float> scratch = scratchFor(size);
+    kernels.smooth(viewOf(bytes), 255, actual.ptr<unsigned char>(),
+                   static_cast<std::ptrdiff_t>(actual.step1()), scratch.data());
+    EXPECT_LE(cv::norm(asFloats(actual.colRange(0, size.width)), expected, cv::NORM_INF), 0.5);
+    EXPECT_EQ(cv::norm(actual.col(size.width), cv::Mat(size.height, 1, CV_8UC1, cv::Scalar(7)),
+                       cv::NORM_INF),
+              0.0);
+  });
+}
+
+TEST(ImageKernelTest, WhatIsClippedStaysClipped) {
+  forEachImage([](const kernels::Kernels& kernels, const Size& size) {
+    cv::Mat bytes(size.height, size.width, CV_8UC1, cv::Scalar(100));
+    bytes.at<unsigned char>(1, size.width - 2) = 240;
+    std::vector<float> scratch = scratchFor(size);
+    for (const int largest : {239, 240}) {
+      cv::Mat actual(size.height, size.width, CV_8UC1);
+      kernels.smooth(viewOf(bytes), static_cast<std::uint8_t>(largest), actual.ptr<unsigned char>(),
+                     static_cast<std::ptrdiff_t>(actual.step1()), scratch.data());
+      EXPECT_EQ(actual.at<unsigned char>(1, size.width - 2), largest == 240 ? 135 : 255);
+      EXPECT_EQ(cv::countNonZero(actual > 100), 9);
+      EXPECT_EQ(cv::countNonZero(actual == 255), largest == 240 ? 0 : 1);
+    }
+  });
+}
+
 TEST(ImageKernelTest, ReducesLikePyrDown) {
   forEachImage([](const kernels::Kernels& kernels, const Size& size) {
     const cv::Mat bytes = randomBytes(size, 1);

@@ -205,6 +205,12 @@ struct Kernels {
   void (*reduce)(const ImageView& fine, float* coarse, std::ptrdiff_t coarse_stride,
                  float* scratch);
 
+  /// Bytes under the 3 x 3 binomial (1, 2, 1), mirrored at the border and rounded to the nearest;
+  /// 255 where the middle one is above `largest`, for what is clipped must stay so.
+  /// @param image of bytes, 2 x 2 pixels at least @param scratch imageScratch(width) floats.
+  void (*smooth)(const ImageView& image, std::uint8_t largest, std::uint8_t* smoothed,
+                 std::ptrdiff_t smoothed_stride, float* scratch);
+
   /// Mean and standard deviation over 5 x 5 pixels, mirrored at the border, as pairs. The image is
   /// of floats and has at least 3 x 3 pixels. Returns the sum of the variances. @param scratch
   /// imageScratch(width) floats.
