@@ -21,7 +21,8 @@ bool usesMutualInformation(const Parameters& parameters, int level) {
 }
 
 /// The few points that are compared then tell of their neighbours, too: noise is averaged out, and
-/// interpolation between pixels errs less. Further levels are smooth by their making.
+/// interpolation between pixels errs less. Not beside clipped pixels, which would spread. Further
+/// levels are smooth by their making.
 void FramePyramid::smooth(double saturation) {
   const cv::Mat& image = images_.level(0);
   smoothed_.create(image.size(), CV_8UC1);

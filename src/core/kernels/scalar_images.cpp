@@ -83,14 +83,17 @@ void smooth(const ImageView& image, std::uint8_t largest, std::uint8_t* smoothed
   for (int y = 0; y < image.height; ++y) {
     for (int x = 0; x < image.width; ++x) {
       int sum = 0;
+      std::uint8_t maximum = 0;
       for (int j = -1; j <= 1; ++j) {
         const std::uint8_t* row = image.bytes + mirrored(y + j, image.height) * image.stride;
         for (int i = -1; i <= 1; ++i) {
-          sum += kWeights[j + 1] * kWeights[i + 1] * row[mirrored(x + i, image.width)];
+          const std::uint8_t value = row[mirrored(x + i, image.width)];
+          sum += kWeights[j + 1] * kWeights[i + 1] * value;
+          maximum = std::max(maximum, value);
         }
       }
-      smoothed[y * smoothed_stride + x] = image.bytes[y * image.stride + x] > largest
-                                              ? std::uint8_t{255}
+      smoothed[y * smoothed_stride + x] = maximum > largest
+                                              ? image.bytes[y * image.stride + x]
                                               : static_cast<std::uint8_t>((sum + 8) / 16);
     }
   }

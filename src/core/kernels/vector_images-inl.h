@@ -149,26 +149,32 @@ inline void reduce(const ImageView& fine, float* coarse, std::ptrdiff_t coarse_s
   }
 }
 
-/// Sums of three bytes under (1, 2, 1), down the rows.
-HWY_INLINE void binomialDown(const std::uint8_t* const rows[3], int width, std::uint16_t* sums) {
+/// Of three bytes down the rows: the sum under (1, 2, 1), and the largest.
+HWY_INLINE void binomialDown(const std::uint8_t* const rows[3], int width, std::uint16_t* sums,
+                             std::uint8_t* maxima) {
   const hn::ScalableTag<std::uint16_t> d;
   const hn::Rebind<std::uint8_t, decltype(d)> d8;
   const auto lanes = static_cast<int>(hn::Lanes(d));
   int x = 0;
   for (; x + lanes <= width; x += lanes) {
-    const auto outer = hn::Add(hn::PromoteTo(d, hn::LoadU(d8, rows[0] + x)),
-                               hn::PromoteTo(d, hn::LoadU(d8, rows[2] + x)));
-    const auto middle = hn::PromoteTo(d, hn::LoadU(d8, rows[1] + x));
+    const auto above = hn::LoadU(d8, rows[0] + x);
+    const auto here = hn::LoadU(d8, rows[1] + x);
+    const auto below = hn::LoadU(d8, rows[2] + x);
+    const auto middle = hn::PromoteTo(d, here);
+    const auto outer = hn::Add(hn::PromoteTo(d, above), hn::PromoteTo(d, below));
     hn::StoreU(hn::Add(outer, hn::Add(middle, middle)), d, sums + x);
+    hn::StoreU(hn::Max(here, hn::Max(above, below)), d8, maxima + x);
   }
   for (; x < width; ++x) {
     sums[x] = static_cast<std::uint16_t>(rows[0][x] + 2 * rows[1][x] + rows[2][x]);
+    maxima[x] = std::max(rows[1][x], std::max(rows[0][x], rows[2][x]));
   }
 }
 
 /// The same along a row of them, with one entry beyond each end. @param row the image's.
-HWY_INLINE void binomialAlong(const std::uint16_t* sums, const std::uint8_t* row, int width,
-                              std::uint8_t largest, std::uint8_t* smoothed) {
+HWY_INLINE void binomialAlong(const std::uint16_t* sums, const std::uint8_t* maxima,
+                              const std::uint8_t* row, int width, std::uint8_t largest,
+                              std::uint8_t* smoothed) {
   const hn::ScalableTag<std::uint16_t> d;
   const hn::Rebind<std::uint8_t, decltype(d)> d8;
   const hn::RebindToSigned<decltype(d)> d_signed;
@@ -180,27 +186,31 @@ HWY_INLINE void binomialAlong(const std::uint16_t* sums, const std::uint8_t* row
     const auto middle = hn::LoadU(d, sums + x);
     const auto sum = hn::Add(hn::Add(outer, hn::Add(middle, middle)), hn::Set(d, 8));
     const auto value = hn::DemoteTo(d8, hn::BitCast(d_signed, hn::ShiftRight<4>(sum)));
-    const auto here = hn::LoadU(d8, row + x);
-    const auto is_valid = hn::Eq(hn::Max(here, highest), highest);
-    hn::StoreU(hn::IfThenElse(is_valid, value, hn::Set(d8, 255)), d8, smoothed + x);
+    const auto maximum = hn::Max(hn::LoadU(d8, maxima + x), hn::Max(hn::LoadU(d8, maxima + x - 1),
+                                                                    hn::LoadU(d8, maxima + x + 1)));
+    const auto is_valid = hn::Eq(hn::Max(maximum, highest), highest);
+    hn::StoreU(hn::IfThenElse(is_valid, value, hn::LoadU(d8, row + x)), d8, smoothed + x);
   }
   for (; x < width; ++x) {
     const int sum = sums[x - 1] + 2 * sums[x] + sums[x + 1] + 8;
-    smoothed[x] = row[x] <= largest ? static_cast<std::uint8_t>(sum / 16) : std::uint8_t{255};
+    const bool is_valid = std::max(maxima[x], std::max(maxima[x - 1], maxima[x + 1])) <= largest;
+    smoothed[x] = is_valid ? static_cast<std::uint8_t>(sum / 16) : row[x];
   }
 }
 
 inline void smooth(const ImageView& image, std::uint8_t largest, std::uint8_t* smoothed,
                    std::ptrdiff_t smoothed_stride, float* scratch) {
   std::uint16_t* sums = reinterpret_cast<std::uint16_t*>(scratch) + 16;
+  std::uint8_t* maxima = reinterpret_cast<std::uint8_t*>(sums + image.width + 64);
   for (int y = 0; y < image.height; ++y) {
     const std::uint8_t* rows[3];
     for (int k = 0; k < 3; ++k) {
       rows[k] = image.bytes + mirroredIndex(y + k - 1, image.height) * image.stride;
     }
-    binomialDown(rows, image.width, sums);
+    binomialDown(rows, image.width, sums, maxima);
     mirrorEnds(sums, image.width);
-    binomialAlong(sums, rows[1], image.width, largest, smoothed + y * smoothed_stride);
+    mirrorEnds(maxima, image.width);
+    binomialAlong(sums, maxima, rows[1], image.width, largest, smoothed + y * smoothed_stride);
   }
 }
 

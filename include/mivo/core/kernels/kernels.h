@@ -206,7 +206,7 @@ struct Kernels {
                  float* scratch);
 
   /// Bytes under the 3 x 3 binomial (1, 2, 1), mirrored at the border and rounded to the nearest;
-  /// 255 where the middle one is above `largest`, for what is clipped must stay so.
+  /// left as they are where one of the nine is above `largest`: what is clipped tells nothing.
   /// @param image of bytes, 2 x 2 pixels at least @param scratch imageScratch(width) floats.
   void (*smooth)(const ImageView& image, std::uint8_t largest, std::uint8_t* smoothed,
                  std::ptrdiff_t smoothed_stride, float* scratch);
