@@ -290,7 +290,8 @@ void Odometry::Implementation::accept(const Frame& frame, const Alignment& align
   }
   if (needsNewKeyframe(alignment, keyframe.keyframe, first_quality_, parameters_)) {
     // In the dark the next keyframe shows less than what there is to see.
-    const double usual_contrast = alignment.sees_image ? 0.0 : keyframe.usual_contrast;
+    const bool is_lit = alignment.sees_image && !alignment.is_live_dark;
+    const double usual_contrast = is_lit ? 0.0 : keyframe.usual_contrast;
     makeKeyframe(T_odom_camera_, twist_per_period, result_.covariance, usual_contrast);
   }
 }
