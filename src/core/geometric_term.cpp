@@ -55,7 +55,7 @@ void GeometricTerm::measure(const Eigen::Isometry3d& T_live_ref) {
 int GeometricTerm::gradientCovariance(Matrix6& covariance) const {
   std::array<const float*, 6> jacobian;
   for (std::size_t k = 0; k < 6; ++k) jacobian[k] = (*jacobian_)[k].data();
-  return sum_.scoreCovariance(*residuals_, jacobian, *u_, *v_, warp_.camera().width, covariance);
+  return sum_.scoreCovariance(*residuals_, jacobian, *u_, *v_, warp_.camera(), covariance);
 }
 
 QuadraticModel GeometricTerm::linearise(int iteration) {

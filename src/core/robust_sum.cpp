@@ -15,7 +15,7 @@ namespace mivo {
 namespace {
 
 // Blocks of the image whose points err together, in a row of it.
-constexpr double kBlocksPerRow = 10.0;
+constexpr int kBlocksPerRow = 10;
 // Standard deviation of a Gaussian in medians of its magnitude.
 constexpr double kMedianToDeviation = 1.4826;
 
@@ -67,20 +67,6 @@ float medianMagnitude(const Residuals& residuals) {
   const float share = (static_cast<float>(rank) + 0.5F) / static_cast<float>(counts[step]);
   const float low = startOf(step);
   return low + share * (startOf(step + 1) - low);
-}
-
-/// Largest of numbers that are not negative, 0 of none. Eight at a time: one after the other each
-/// comparison would wait for the last.
-float largest(const std::vector<float>& values) {
-  constexpr std::size_t kTogether = 8;
-  std::array<float, kTogether> maxima{};
-  std::size_t i = 0;
-  for (; i + kTogether <= values.size(); i += kTogether) {
-    for (std::size_t k = 0; k < kTogether; ++k) maxima[k] = std::max(maxima[k], values[i + k]);
-  }
-  float result = *std::max_element(maxima.begin(), maxima.end());
-  for (; i < values.size(); ++i) result = std::max(result, values[i]);
-  return result;
 }
 
 /// The residual of the warped keyframe is r(d) = r - J d: the gradient is minus the sum of J r.
@@ -144,35 +130,23 @@ double RobustSum::cost(const Residuals& residuals) {
 int RobustSum::scoreCovariance(const Residuals& residuals,
                                const std::array<const float*, 6>& jacobian,
                                const std::vector<float>& u, const std::vector<float>& v,
-                               double width, Matrix6& covariance) const {
-  struct Block {
-    float score[6];
-    int points;
-  };
+                               const Camera& camera, Matrix6& covariance) const {
   covariance.setZero();
   if (residuals.num_visible == 0 || scale_ == 0.0) return 0;
   const std::size_t n = residuals.value.size();
-  Recycled<std::vector<float>> weights;
-  weights->resize(n);
-  kernels::active().robustWeights(kind_, static_cast<float>(scale_), residuals.value.data(),
-                                  residuals.visible.data(), n, weights->data());
-  const auto per_pixel = static_cast<float>(kBlocksPerRow / width);
-  const auto blockOf = [=](float pixel) { return static_cast<int>(pixel * per_pixel); };
-  const int columns = blockOf(largest(u)) + 1;
-  Recycled<std::vector<Block>> blocks;
-  blocks->assign(static_cast<std::size_t>(columns * (blockOf(largest(v)) + 1)), Block{});
-  for (std::size_t i = 0; i < n; ++i) {
-    // What is not visible adds nothing to the first block.
-    Block& here = (*blocks)[static_cast<std::size_t>(blockOf(v[i]) * columns + blockOf(u[i]))];
-    const float influence = (*weights)[i] * residuals.value[i];
-    for (std::size_t k = 0; k < 6; ++k) here.score[k] += influence * jacobian[k][i];
-    here.points += residuals.visible[i] != 0.0F ? 1 : 0;
-  }
+  const kernels::BlockGrid grid = {
+      static_cast<float>(kBlocksPerRow) / static_cast<float>(camera.width), kBlocksPerRow};
+  const int rows = static_cast<int>(static_cast<float>(camera.height) * grid.per_pixel) + 1;
+  Recycled<std::vector<kernels::BlockScore>> blocks;
+  blocks->assign(static_cast<std::size_t>(rows * grid.columns), kernels::BlockScore{});
+  kernels::active().accumulateScores(kind_, static_cast<float>(scale_), residuals.value.data(),
+                                     residuals.visible.data(), jacobian.data(), u.data(), v.data(),
+                                     n, grid, blocks->data());
   int count = 0;
   const double factor =
       static_cast<double>(n) / (static_cast<double>(residuals.num_visible) * scale_ * scale_);
-  for (const Block& here : *blocks) {
-    if (here.points == 0) continue;
+  for (const kernels::BlockScore& here : *blocks) {
+    if (here.score[6] == 0.0F) continue;
     ++count;
     const Vector6 score =
         factor * Eigen::Map<const Eigen::Matrix<float, 6, 1>>(here.score).cast<double>();

@@ -65,7 +65,7 @@ int SsdTerm::gradientCovariance(Matrix6& covariance) const {
   std::array<const float*, 6> jacobian;
   for (std::size_t k = 0; k < 6; ++k) jacobian[k] = points_.jacobian[k].data();
   const int blocks = sum_.scoreCovariance(*residuals_, jacobian, samples_->u, samples_->v,
-                                          warp_.camera().width, covariance);
+                                          warp_.camera(), covariance);
   covariance *= weight_ * weight_;
   return blocks;
 }

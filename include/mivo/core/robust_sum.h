@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "mivo/core/camera.h"
 #include "mivo/core/cost_term.h"
 #include "mivo/core/parameters.h"
 
@@ -35,10 +36,10 @@ class RobustSum {
   /// Covariance of the gradient that linearise() gives, from what the residuals do in blocks of the
   /// image: neighbours err together (their depth, their blur), and count as one. In the units of
   /// the Hessian; by H⁻¹ C H⁻¹ it becomes that of the increment. @param u, @param v pixels of the
-  /// points. @param width of the image, pixels. Returns the number of blocks with points.
+  /// points, in the image of `camera`. Returns the number of blocks with points.
   int scoreCovariance(const Residuals& residuals, const std::array<const float*, 6>& jacobian,
-                      const std::vector<float>& u, const std::vector<float>& v, double width,
-                      Matrix6& covariance) const;
+                      const std::vector<float>& u, const std::vector<float>& v,
+                      const Camera& camera, Matrix6& covariance) const;
 
   double scale() const { return scale_; }  ///< 0 before the first cost()
 

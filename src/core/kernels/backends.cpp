@@ -25,6 +25,7 @@ const Kernels& scalar() {
       reference::robustCost,
       reference::robustWeights,
       reference::accumulateLeastSquares,
+      reference::accumulateScores,
       reference::sumPairs,
       reference::geometricResiduals,
       reference::binPositions,

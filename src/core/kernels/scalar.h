@@ -28,6 +28,9 @@ double robustCost(RobustWeight kind, float scale, const float* residual, const f
 void accumulateLeastSquares(RobustWeight kind, float scale, const float* residual,
                             const float* visible, const float* const jacobian[6], std::size_t n,
                             LeastSquaresSums& sums);
+void accumulateScores(RobustWeight kind, float scale, const float* residual, const float* visible,
+                      const float* const jacobian[6], const float* u, const float* v, std::size_t n,
+                      const BlockGrid& grid, BlockScore* blocks);
 void sumPairs(const float* a, const float* b, const float* divisor, const float* visible,
               std::size_t n, PairSums& sums);
 std::size_t geometricResiduals(const WarpParameters& live, const Motion& T_ref_live,

@@ -62,6 +62,21 @@ void accumulateLeastSquares(RobustWeight kind, float scale, const float* residua
   }
 }
 
+void accumulateScores(RobustWeight kind, float scale, const float* residual, const float* visible,
+                      const float* const jacobian[6], const float* u, const float* v, std::size_t n,
+                      const BlockGrid& grid, BlockScore* blocks) {
+  const float inverse_scale = 1.0F / scale;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (visible[i] == 0.0F) continue;
+    const int column = static_cast<int>(u[i] * grid.per_pixel);
+    const int row = static_cast<int>(v[i] * grid.per_pixel);
+    float* score = blocks[row * grid.columns + column].score;
+    const float influence = robustLoss(kind, residual[i] * inverse_scale).weight * residual[i];
+    for (int k = 0; k < 6; ++k) score[k] += influence * jacobian[k][i];
+    score[6] += 1.0F;
+  }
+}
+
 void sumPairs(const float* a, const float* b, const float* divisor, const float* visible,
               std::size_t n, PairSums& sums) {
   sums = PairSums{};

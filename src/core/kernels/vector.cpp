@@ -28,6 +28,8 @@
 //
 #include "kernels/vector_sums-inl.h"
 //
+#include "kernels/vector_scores-inl.h"
+//
 #include "kernels/vector_information-inl.h"
 //
 #include "kernels/vector_images-inl.h"
@@ -50,6 +52,7 @@ const Kernels& table() {
       robustCost,
       robustWeights,
       accumulateLeastSquares,
+      accumulateScores,
       sumPairs,
       geometricResiduals,
       binPositions,

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <numeric>
+
 #include "kernel_data.h"
 
 namespace mivo {
@@ -109,6 +111,38 @@ TEST(VectorSumsTest, NormalEquationsAgreeWithTheReference) {
                     kSumTolerance * std::sqrt(expected.hessian[diagonal[k]] * squares));
       }
       testing::expectNearTriangles(actual.hessian, expected.hessian, kSumTolerance);
+    });
+  }
+}
+
+TEST(VectorSumsTest, ScoresOfBlocksAgreeWithTheReference) {
+  const kernels::BlockGrid grid = {4.0F / kWidth, 4};
+  const auto rows = static_cast<std::size_t>(kHeight * grid.per_pixel) + 1;
+  for (const RobustWeight kind : kKinds) {
+    forEachCase([&](const Kernels& kernels, std::size_t n, std::size_t offset) {
+      Numbers numbers(10);
+      const Array visible = numbers.visible(n, offset);
+      const Array residual = awkwardResiduals(visible, offset, 2.0F);
+      const Columns<6> jacobian(numbers, n, offset, -300.0F, 500.0F);
+      Array u = numbers.array(n, offset, 0.0F, kWidth - 1.0F);
+      Array v = numbers.array(n, offset, 0.0F, kHeight - 1.0F);
+      for (std::size_t i = 0; i < n; ++i) u[i] *= visible[i], v[i] *= visible[i];
+      std::vector<kernels::BlockScore> expected(4 * rows, kernels::BlockScore{{1.0F}});
+      std::vector<kernels::BlockScore> actual = expected;  // what is there is added to
+      kernels::scalar().accumulateScores(kind, 2.0F, residual.data(), visible.data(),
+                                         jacobian.data(), u.data(), v.data(), n, grid,
+                                         expected.data());
+      kernels.accumulateScores(kind, 2.0F, residual.data(), visible.data(), jacobian.data(),
+                               u.data(), v.data(), n, grid, actual.data());
+      const float bound = 1e-5F * 500.0F * 2e4F * static_cast<float>(n);
+      float points = 0.0F;
+      for (std::size_t b = 0; b < expected.size(); ++b) {
+        for (int k = 0; k < 6; ++k) EXPECT_NEAR(actual[b].score[k], expected[b].score[k], bound);
+        EXPECT_EQ(actual[b].score[6], expected[b].score[6]);
+        EXPECT_EQ(actual[b].score[7], 0.0F);
+        points += actual[b].score[6];
+      }
+      EXPECT_EQ(points, std::accumulate(visible.data(), visible.data() + n, 0.0F));
     });
   }
 }

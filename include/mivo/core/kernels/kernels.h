@@ -130,6 +130,19 @@ struct InformationSums {
 /// Floats per row of the table of dp_rl, and of a point's Jacobian in rows: 6 and two zeros.
 constexpr int kRowFloats = 8;
 
+/// An image cut into blocks, row by row: pixel (u, v) lies in block
+/// floor(v per_pixel) columns + floor(u per_pixel).
+struct BlockGrid {
+  float per_pixel;  ///< blocks per pixel
+  int columns;
+};
+
+/// Sum over the visible points of a block: of weight times residual times Jacobian, and how many
+/// they are.
+struct BlockScore {
+  float score[kRowFloats];  ///< six, the number of points, and a zero
+};
+
 struct Kernels {
   /// Pixels of the points, and whether they are in front of the camera and inside; pixels of
   /// invisible points are 0. Returns the number of visible ones.
@@ -163,6 +176,13 @@ struct Kernels {
   void (*accumulateLeastSquares)(RobustWeight kind, float scale, const float* residual,
                                  const float* visible, const float* const jacobian[6],
                                  std::size_t n, LeastSquaresSums& sums);
+
+  /// Adds each visible point to the block of the image that it lies in, see robustLoss for the
+  /// weight. @param u, v pixels; what is not visible lies somewhere in the image, too.
+  void (*accumulateScores)(RobustWeight kind, float scale, const float* residual,
+                           const float* visible, const float* const jacobian[6], const float* u,
+                           const float* v, std::size_t n, const BlockGrid& grid,
+                           BlockScore* blocks);
 
   /// Sums over the visible points of a and b / divisor.
   void (*sumPairs)(const float* a, const float* b, const float* divisor, const float* visible,
