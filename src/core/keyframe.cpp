@@ -7,45 +7,56 @@
 namespace mivo {
 namespace {
 
-void selectPoints(const cv::Mat& image, const cv::Mat& depth, bool is_coarsest,
-                  const Parameters& parameters, std::vector<Pixel>& pixels) {
+/// @param fraction of the pixels that is wanted, where it is more than point_fraction.
+void selectPoints(const cv::Mat& image, const cv::Mat& depth, bool is_coarsest, double fraction,
+                  const Parameters& parameters, ReferencePoints& points) {
   if (is_coarsest || parameters.point_fraction == 1.0) {
-    selectAll(depth, pixels);
+    selectAll(depth, points.pixels);
+    points.num_leading = points.size();
     return;
   }
-  const double wanted = parameters.point_fraction * static_cast<double>(image.total());
+  const auto numPoints = [&](double share) {
+    const double wanted = share * static_cast<double>(image.total());
+    return std::max(parameters.min_points, static_cast<int>(std::lround(wanted)));
+  };
   SelectionLimits limits{};
-  limits.num_points = std::max(parameters.min_points, static_cast<int>(std::lround(wanted)));
+  limits.num_leading = numPoints(parameters.point_fraction);
+  limits.num_points = std::max(limits.num_leading, numPoints(fraction));
   limits.min_gradient = static_cast<float>(parameters.min_gradient);
   limits.cell_size = parameters.point_cell_size;
   limits.depth_edge_ratio = static_cast<float>(parameters.depth_edge_ratio);
-  selectSalient(image, depth, limits, pixels);
+  points.num_leading = selectSalient(image, depth, limits, points.pixels);
 }
 
 template <typename Value>
-void leaveOutAbove(const cv::Mat& image, Value limit, std::vector<Pixel>& pixels) {
+void leaveOutAbove(const cv::Mat& image, Value limit, ReferencePoints& points) {
   const auto stride = static_cast<std::ptrdiff_t>(image.step1());
   std::size_t count = 0;
-  for (const Pixel& pixel : pixels) {
+  std::size_t num_leading = 0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Pixel pixel = points.pixels[i];
     const Value* row = image.ptr<Value>(pixel.y) + pixel.x - stride;
     Value highest = row[0];
     for (int y = 0; y < 3; ++y, row += stride) {
       highest = std::max({highest, row[-1], row[0], row[1]});
     }
-    pixels[count] = pixel;
-    count += highest < limit ? 1U : 0U;  // no branch: nothing foresees it
+    const std::size_t is_kept = highest < limit ? 1U : 0U;  // no branch: nothing foresees it
+    points.pixels[count] = pixel;
+    count += is_kept;
+    num_leading += i < points.num_leading ? is_kept : 0U;
   }
-  pixels.resize(count);
+  points.pixels.resize(count);
+  points.num_leading = num_leading;
 }
 
 /// Pixels with a neighbour that may be clipped: their gradient is not that of the scene.
-void leaveOutSaturated(const cv::Mat& image, double saturation, std::vector<Pixel>& pixels) {
+void leaveOutSaturated(const cv::Mat& image, double saturation, ReferencePoints& points) {
   if (image.type() == CV_8UC1) {
     // Whole numbers: what reaches the limit reaches the next one above it.
     const double limit = std::ceil(saturation);
-    if (limit <= 255.0) leaveOutAbove(image, static_cast<unsigned char>(limit), pixels);
+    if (limit <= 255.0) leaveOutAbove(image, static_cast<unsigned char>(limit), points);
   } else {
-    leaveOutAbove(image, static_cast<float>(saturation), pixels);
+    leaveOutAbove(image, static_cast<float>(saturation), points);
   }
 }
 
@@ -69,18 +80,21 @@ void Keyframe::choosePoints(const FramePyramid& frame, const Vector6& twist_per_
   depth_pyramid_.build(frame.frame(), num_levels, parameters.min_depth, parameters.max_depth,
                        parameters.depth_edge_ratio);
   for (int l = 0; l < num_levels; ++l) {
-    std::vector<Pixel>& pixels = levels_[static_cast<std::size_t>(l)].points.pixels;
+    ReferencePoints& points = levels_[static_cast<std::size_t>(l)].points;
     const bool is_coarsest = l + 1 == num_levels && num_levels > 1;
-    selectPoints(frame.grey(l), depth_pyramid_.level(l), is_coarsest, parameters, pixels);
-    if (frame.isNormalised()) leaveOutSaturated(frame.grey(l), parameters.saturation, pixels);
+    const bool is_finest = l == 0 && frame.isNormalised() && !usesMutualInformation(parameters, l);
+    selectPoints(frame.grey(l), depth_pyramid_.level(l), is_coarsest,
+                 is_finest ? parameters.finest_point_fraction : 0.0, parameters, points);
+    if (frame.isNormalised()) leaveOutSaturated(frame.grey(l), parameters.saturation, points);
   }
 }
 
 void Keyframe::choosePointsByDepth(const Parameters& parameters) {
   for (int l = 0; l < numLevels(); ++l) {
-    std::vector<Pixel>& pixels = levels_[static_cast<std::size_t>(l)].points.pixels;
-    if (static_cast<int>(pixels.size()) >= parameters.min_points) continue;
-    selectEvenly(depth_pyramid_.level(l), parameters.min_points, pixels);
+    ReferencePoints& points = levels_[static_cast<std::size_t>(l)].points;
+    if (static_cast<int>(points.size()) >= parameters.min_points) continue;
+    selectEvenly(depth_pyramid_.level(l), parameters.min_points, points.pixels);
+    points.num_leading = points.size();
   }
 }
 

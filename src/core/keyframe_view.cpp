@@ -51,7 +51,7 @@ cv::Mat makeResidualImage(const Keyframe& keyframe, const cv::Mat& live, const C
                           const Eigen::Isometry3d& T_live_ref) {
   const ReferencePoints points = pointsAt(pixelsWithDepth(keyframe.depth()), keyframe, camera);
   LiveSamples samples;
-  Warp(camera, RowMotion{}, 1).sample(points, T_live_ref, live, samples);
+  Warp(camera, RowMotion{}, 1).sample(points, points.size(), T_live_ref, live, samples);
   cv::Mat result((camera.height + 1) / kStride, (camera.width + 1) / kStride, CV_8UC1,
                  cv::Scalar(128));
   for (std::size_t i = 0; i < points.size(); ++i) {

@@ -87,7 +87,7 @@ double MiTerm::evaluate(const Eigen::Isometry3d& T_live_ref) {
 void MiTerm::sample(const Eigen::Isometry3d& T_live_ref) {
   T_live_ref_ = T_live_ref;
   is_sampled_ = true;
-  warp_.sample(points_, T_live_ref, live_image_, *samples_);
+  warp_.sample(points_, points_.size(), T_live_ref, live_image_, *samples_);
   live_bin_->resize(points_.size());
   live_fraction_->resize(points_.size());
   kernels::active().binPositions(samples_->value.data(), points_.size(), live_binning_.low(),

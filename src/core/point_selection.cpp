@@ -47,6 +47,7 @@ struct Cell {
   std::uint32_t last_step;  // in which the last one is chosen
   std::uint32_t rest;       // how many of this step are chosen
   Rank weakest;             // of the chosen ones
+  Rank given;               // weakest of those taken before
 };
 
 /// Intermediate results of a selection.
@@ -136,7 +137,7 @@ void findCandidates(const cv::Mat& image, const cv::Mat& depth, const SelectionL
 }
 
 void countCandidates(std::size_t num_cells, Workspace& work) {
-  work.cells.assign(num_cells, Cell{});
+  work.cells.assign(num_cells, Cell{0, 0, 0, 0, std::numeric_limits<Rank>::max()});
   work.counts.assign(num_cells * kSteps, 0);
   for (std::size_t i = 0; i < work.num_candidates; ++i) {
     const Candidate& candidate = work.candidates[i];
@@ -171,8 +172,11 @@ void findWeakest(std::uint32_t quota, Workspace& work) {
   }
   for (std::size_t c = 0; c < work.cells.size(); ++c) {
     Cell& cell = work.cells[c];
-    if (cell.last_step == kSteps) continue;  // all are chosen
-    if (cell.rest == 0) {                    // none is: the quota is 0
+    if (cell.last_step == kSteps) {  // all are chosen
+      cell.weakest = 0;
+      continue;
+    }
+    if (cell.rest == 0) {  // none is: the quota is 0
       cell.weakest = std::numeric_limits<Rank>::max();
       continue;
     }
@@ -183,26 +187,42 @@ void findWeakest(std::uint32_t quota, Workspace& work) {
   }
 }
 
+/// Appends the candidates that the cells choose and have not given before to `count` chosen ones.
+/// Returns how many there are then.
+std::size_t takeChosen(std::size_t count, Workspace& work) {
+  // Again without a branch that nothing foresees.
+  work.chosen.resize(std::max(work.chosen.size(), work.num_candidates + 1));
+  for (std::size_t i = 0; i < work.num_candidates; ++i) {
+    const Candidate& candidate = work.candidates[i];
+    const Cell& cell = work.cells[candidate.cell];
+    work.chosen[count] = {candidate.x, candidate.y};
+    count += (candidate.rank >= cell.weakest ? 1U : 0U) & (candidate.rank < cell.given ? 1U : 0U);
+  }
+  for (Cell& cell : work.cells) cell.given = cell.weakest;
+  return count;
+}
+
+/// Sets the weakest rank of each cell when `num_points` are chosen.
+void fillCells(int num_points, Workspace& work) {
+  findWeakest(quotaPerCell(work.cells, static_cast<std::uint32_t>(num_points)), work);
+}
+
 }  // namespace
 
-void selectSalient(const cv::Mat& image, const cv::Mat& depth, const SelectionLimits& limits,
-                   std::vector<Pixel>& pixels) {
+std::size_t selectSalient(const cv::Mat& image, const cv::Mat& depth, const SelectionLimits& limits,
+                          std::vector<Pixel>& pixels) {
   Recycled<Workspace> recycled;
   Workspace& work = *recycled;
   const int columns = (image.cols + limits.cell_size - 1) / limits.cell_size;
   const int rows = (image.rows + limits.cell_size - 1) / limits.cell_size;
   findCandidates(image, depth, limits, columns, work);
   countCandidates(static_cast<std::size_t>(columns * rows), work);
-  findWeakest(quotaPerCell(work.cells, static_cast<std::uint32_t>(limits.num_points)), work);
-  // Again without a branch that nothing foresees.
-  std::size_t count = 0;
-  work.chosen.resize(std::max(work.chosen.size(), work.num_candidates + 1));
-  for (std::size_t i = 0; i < work.num_candidates; ++i) {
-    const Candidate& candidate = work.candidates[i];
-    work.chosen[count] = {candidate.x, candidate.y};
-    count += candidate.rank >= work.cells[candidate.cell].weakest ? 1U : 0U;
-  }
+  fillCells(limits.num_leading, work);
+  const std::size_t num_leading = takeChosen(0, work);
+  fillCells(limits.num_points, work);
+  const std::size_t count = takeChosen(num_leading, work);
   pixels.assign(work.chosen.begin(), work.chosen.begin() + static_cast<std::ptrdiff_t>(count));
+  return num_leading;
 }
 
 void selectAll(const cv::Mat& depth, std::vector<Pixel>& pixels) {

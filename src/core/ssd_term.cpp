@@ -14,9 +14,10 @@ constexpr double kNoWeight = 1e-6;
 
 }  // namespace
 
-SsdTerm::SsdTerm(const ReferencePoints& points, const cv::Mat& live_image,
+SsdTerm::SsdTerm(const ReferencePoints& points, std::size_t num_points, const cv::Mat& live_image,
                  const ContrastMap* contrast, const Warp& warp, const Parameters& parameters)
     : points_(points),
+      num_points_(num_points),
       live_image_(live_image),
       contrast_(contrast),
       warp_(warp),
@@ -32,11 +33,12 @@ double SsdTerm::evaluate(const Eigen::Isometry3d& T_live_ref) {
 
 void SsdTerm::sample(const Eigen::Isometry3d& T_live_ref) {
   if (contrast_ != nullptr) {
-    warp_.sampleNormalised(points_, T_live_ref, live_image_, *contrast_, saturation_, *samples_);
+    warp_.sampleNormalised(points_, num_points_, T_live_ref, live_image_, *contrast_, saturation_,
+                           *samples_);
   } else {
-    warp_.sample(points_, T_live_ref, live_image_, *samples_);
+    warp_.sample(points_, num_points_, T_live_ref, live_image_, *samples_);
   }
-  residuals_->value.resize(points_.size());
+  residuals_->value.resize(num_points_);
   std::swap(residuals_->visible, samples_->visible);
   residuals_->num_visible = samples_->num_visible;
   if (contrast_ != nullptr && !is_sampled_) is_inverted_ = correlation() < -least_correlation_;
@@ -44,7 +46,7 @@ void SsdTerm::sample(const Eigen::Isometry3d& T_live_ref) {
     for (float& value : samples_->value) value = -value;
   }
   kernels::active().residuals(samples_->value.data(), points_.contrast.data(),
-                              points_.intensity.data(), residuals_->visible.data(), points_.size(),
+                              points_.intensity.data(), residuals_->visible.data(), num_points_,
                               residuals_->value.data());
   T_live_ref_ = T_live_ref;
   is_sampled_ = true;
@@ -77,7 +79,7 @@ bool SsdTerm::isSignificant() const {
 double SsdTerm::correlation() const {
   kernels::PairSums sums{};
   kernels::active().sumPairs(samples_->value.data(), points_.intensity.data(),
-                             points_.contrast.data(), residuals_->visible.data(), points_.size(),
+                             points_.contrast.data(), residuals_->visible.data(), num_points_,
                              sums);
   const auto n = static_cast<double>(residuals_->num_visible);
   const double spread = (n * sums.aa - sums.a * sums.a) * (n * sums.bb - sums.b * sums.b);

@@ -104,8 +104,11 @@ class LevelAligner {
     return std::max(1.0, ratio.trace() / 6.0);
   }
 
+  /// Whether a descent only leads to the next one.
+  enum class Stage { kLeading, kLast };
+
   /// Minimises the sum of the terms that there are.
-  void minimiseTerms(std::initializer_list<CostTerm*> terms) {
+  void minimiseTerms(std::initializer_list<CostTerm*> terms, Stage stage = Stage::kLast) {
     terms_->clear();
     for (CostTerm* term : terms) {
       if (term != nullptr) terms_->push_back(term);
@@ -123,7 +126,7 @@ class LevelAligner {
     alignment_.T_live_ref = minimum.T_live_ref;
     alignment_.information = minimum.hessian;
     alignment_.condition = minimum.condition;
-    if (level_ == 0) estimateCovariance(*terms_);
+    if (level_ == 0 && stage == Stage::kLast) estimateCovariance(*terms_);
     record_.iterations += minimum.iterations;
     record_.evaluations += minimum.evaluations;
     record_.cost = minimum.cost / static_cast<double>(std::max<std::size_t>(1, points_.size()));
@@ -186,10 +189,22 @@ class LevelAligner {
     }
   }
 
+  SsdTerm intensityTerm(std::size_t num_points) const {
+    return SsdTerm(points_, num_points, task_.live.grey(level_),
+                   task_.live.isNormalised() ? &task_.live.contrast().level(level_) : nullptr,
+                   warp_, parameters_);
+  }
+
+  /// The iterations are done with few points; all of them then have little left to do.
+  void alignLeadingPoints() {
+    SsdTerm term = intensityTerm(points_.num_leading);
+    if (!isEnoughInView(term) || !term.isSignificant() || alignment_.isBlind()) return;
+    minimiseTerms({&term, geometricTerm(parameters_.geometric_points)}, Stage::kLeading);
+  }
+
   void alignIntensities() {
-    SsdTerm term(points_, task_.live.grey(level_),
-                 task_.live.isNormalised() ? &task_.live.contrast().level(level_) : nullptr, warp_,
-                 parameters_);
+    if (points_.num_leading < points_.size()) alignLeadingPoints();
+    SsdTerm term = intensityTerm(points_.size());
     alignment_.sees_image = isEnoughInView(term) && term.isSignificant();
     const bool shows_enough = alignment_.sees_image && !alignment_.isBlind();
     GeometricTerm* geometry = geometricTerm(shows_enough ? parameters_.geometric_points

@@ -44,10 +44,11 @@ kernels::WarpParameters Warp::parameters(const Eigen::Isometry3d& T_live_ref) co
 
 /// @param sample_chunk called with a range of points that are warped; returns how many it hid.
 template <typename SampleChunk>
-void Warp::sampleChunks(const ReferencePoints& points, const Eigen::Isometry3d& T_live_ref,
-                        LiveSamples& samples, const SampleChunk& sample_chunk) const {
+void Warp::sampleChunks(const ReferencePoints& points, std::size_t num_points,
+                        const Eigen::Isometry3d& T_live_ref, LiveSamples& samples,
+                        const SampleChunk& sample_chunk) const {
   for (std::vector<float>* array : {&samples.u, &samples.v, &samples.visible, &samples.value}) {
-    array->resize(points.size());
+    array->resize(num_points);
   }
   const kernels::WarpParameters warp = parameters(T_live_ref);
   struct Counts {
@@ -55,8 +56,8 @@ void Warp::sampleChunks(const ReferencePoints& points, const Eigen::Isometry3d& 
     std::size_t hidden;
   };
   Recycled<std::vector<Counts>> counts;
-  counts->resize(numChunks(points.size()));
-  forEachChunk(points.size(), threads_, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
+  counts->resize(numChunks(num_points));
+  forEachChunk(num_points, threads_, [&](std::size_t chunk, std::size_t begin, std::size_t end) {
     const std::size_t in_view = kernels::active().warpPoints(
         warp, points.view(begin), end - begin, samples.u.data() + begin, samples.v.data() + begin,
         samples.visible.data() + begin);
@@ -70,10 +71,11 @@ void Warp::sampleChunks(const ReferencePoints& points, const Eigen::Isometry3d& 
   }
 }
 
-void Warp::sample(const ReferencePoints& points, const Eigen::Isometry3d& T_live_ref,
-                  const cv::Mat& image, LiveSamples& samples) const {
+void Warp::sample(const ReferencePoints& points, std::size_t num_points,
+                  const Eigen::Isometry3d& T_live_ref, const cv::Mat& image,
+                  LiveSamples& samples) const {
   const kernels::ImageView pixels = view(image);
-  sampleChunks(points, T_live_ref, samples, [&](std::size_t begin, std::size_t n) {
+  sampleChunks(points, num_points, T_live_ref, samples, [&](std::size_t begin, std::size_t n) {
     kernels::active().sampleIntensity(pixels, samples.u.data() + begin, samples.v.data() + begin,
                                       samples.visible.data() + begin, n,
                                       samples.value.data() + begin);
@@ -81,12 +83,13 @@ void Warp::sample(const ReferencePoints& points, const Eigen::Isometry3d& T_live
   });
 }
 
-void Warp::sampleNormalised(const ReferencePoints& points, const Eigen::Isometry3d& T_live_ref,
-                            const cv::Mat& image, const ContrastMap& contrast, double saturation,
+void Warp::sampleNormalised(const ReferencePoints& points, std::size_t num_points,
+                            const Eigen::Isometry3d& T_live_ref, const cv::Mat& image,
+                            const ContrastMap& contrast, double saturation,
                             LiveSamples& samples) const {
   const kernels::ImageView pixels = view(image);
   const kernels::ContrastView maps = view(contrast);
-  sampleChunks(points, T_live_ref, samples, [&](std::size_t begin, std::size_t n) {
+  sampleChunks(points, num_points, T_live_ref, samples, [&](std::size_t begin, std::size_t n) {
     return kernels::active().sampleNormalised(
         pixels, maps, static_cast<float>(saturation), samples.u.data() + begin,
         samples.v.data() + begin, samples.visible.data() + begin, n, samples.value.data() + begin);

@@ -42,5 +42,28 @@ TEST(KeyframeTest, WithAFractionOfOneAllLevelsDo) {
   }
 }
 
+TEST(KeyframeTest, OnTheFinestLevelMorePointsFollowThoseThatLead) {
+  Parameters parameters;
+  parameters.min_points = 50;
+  const Keyframe more = wallKeyframe(parameters);
+  const ReferencePoints& points = more.level(0).points;
+  EXPECT_GT(points.size(), 3 * points.num_leading / 2);
+  EXPECT_EQ(more.level(1).points.num_leading, more.level(1).points.size());
+  parameters.finest_point_fraction = parameters.point_fraction;
+  const Keyframe few = wallKeyframe(parameters);
+  EXPECT_EQ(few.level(0).points.size(), points.num_leading);
+  EXPECT_EQ(few.level(0).points.num_leading, points.num_leading);
+  // The intensities themselves, and mutual information, are compared as in the paper.
+  Parameters raw;
+  raw.photometric_model = PhotometricModel::kNone;
+  Parameters information;
+  information.method = Method::kMi;
+  for (Parameters paper : {raw, information}) {
+    paper.min_points = 50;
+    const Keyframe keyframe = wallKeyframe(paper);
+    EXPECT_EQ(keyframe.level(0).points.num_leading, keyframe.level(0).points.size());
+  }
+}
+
 }  // namespace
 }  // namespace mivo

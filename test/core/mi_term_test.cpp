@@ -54,7 +54,7 @@ class Problem {
   double evaluate(const Eigen::Isometry3d& T_live_ref) {
     const double cost = term_.evaluate(T_live_ref);
     LiveSamples samples;
-    warp_.sample(points_, T_live_ref, live_image_, samples);
+    warp_.sample(points_, points_.size(), T_live_ref, live_image_, samples);
     live_places_.clear();
     visible_.clear();
     for (std::size_t i = 0; i < points_.size(); ++i) {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -23,13 +24,14 @@ cv::Mat flatDepth() {
 }
 
 SelectionLimits limits(int num_points) {
-  return {num_points, 1.0F, 16, 0.06F};
+  return {num_points, num_points, 1.0F, 16, 0.06F};
 }
 
 std::vector<Pixel> salientPixels(const cv::Mat& image, const cv::Mat& depth,
                                  const SelectionLimits& limits) {
   std::vector<Pixel> pixels = {{1, 1}};  // what was there before is gone
-  selectSalient(image, depth, limits, pixels);
+  const std::size_t num_leading = selectSalient(image, depth, limits, pixels);
+  EXPECT_EQ(num_leading, pixels.size());
   return pixels;
 }
 
@@ -132,6 +134,25 @@ TEST(SelectSalientTest, WhatEmptyCellsDoNotUseGoesToTheOthers) {
   EXPECT_LE(pixels.size(), 240U);
   // The 12 cells on the right share what 24 would, up to one point per cell.
   EXPECT_GT(pixels.size(), 240U - 15U);
+}
+
+TEST(SelectSalientTest, ThoseThatASmallerNumberChoosesComeFirst) {
+  const cv::Mat image = noiseImage(4);
+  for (const int wanted : {120, 400, 100000}) {
+    for (const int leading : {24, 119, 120}) {
+      SelectionLimits both = limits(wanted);
+      both.num_leading = leading;
+      std::vector<Pixel> pixels;
+      const std::size_t num_leading = selectSalient(image, flatDepth(), both, pixels);
+      const std::vector<Pixel> first = {pixels.begin(),
+                                        pixels.begin() + static_cast<std::ptrdiff_t>(num_leading)};
+      EXPECT_TRUE(isSame(first, salientPixels(image, flatDepth(), limits(leading))));
+      std::sort(pixels.begin(), pixels.end(), [](const Pixel& a, const Pixel& b) {
+        return std::pair(a.y, a.x) < std::pair(b.y, b.x);
+      });
+      EXPECT_TRUE(isSame(pixels, salientPixels(image, flatDepth(), limits(wanted))));
+    }
+  }
 }
 
 TEST(SelectSalientTest, EachCellGivesItsSteepestPoints) {

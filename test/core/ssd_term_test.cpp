@@ -53,7 +53,7 @@ class SsdTermTest : public ::testing::Test {
     Parameters parameters;
     parameters.robust_weight = kind;
     parameters.threads = threads;
-    return SsdTerm(points_, live_, nullptr, warp_, parameters);
+    return SsdTerm(points_, points_.size(), live_, nullptr, warp_, parameters);
   }
 
   /// The cost by its definition: the live samples stay, the keyframe is warped by the increment.
@@ -228,6 +228,23 @@ TEST_F(SsdTermTest, CorrelationTellsRelatedImagesFromOthers) {
   EXPECT_EQ(covered.correlation(), 0.0);
   covered.linearise(0);
   EXPECT_FALSE(covered.isInformative());
+}
+
+TEST_F(SsdTermTest, TheFirstPointsAreATermOfTheirOwn) {
+  const std::size_t n = points_.size() / 3;
+  SsdTerm first(points_, n, live_, nullptr, warp_, {});
+  ReferencePoints alone = points_;
+  alone.pixels.resize(n);
+  SsdTerm same(alone, n, live_, nullptr, warp_, {});
+  const Eigen::Isometry3d T = Random(6).pose(0.01, 0.01);
+  EXPECT_EQ(first.evaluate(T), same.evaluate(T));
+  EXPECT_NE(first.evaluate(T), term(RobustWeight::kHuber).evaluate(T));
+  EXPECT_LE(first.numVisible(), n);
+  EXPECT_EQ(first.linearise(0).hessian, same.linearise(0).hessian);
+  Matrix6 of_first;
+  Matrix6 of_same;
+  EXPECT_EQ(first.gradientCovariance(of_first), same.gradientCovariance(of_same));
+  EXPECT_EQ(of_first, of_same);
 }
 
 class LargeSsdTermTest : public SsdTermTest {

@@ -31,7 +31,7 @@ class WarpTest : public ::testing::Test {
     const cv::Mat image =
         testing::rasterised(testing::rampImage(90.0, kSlope), camera.width, camera.height);
     points_ = testing::analyticPoints(testing::waves(), camera, 3);
-    Warp(camera, rows, 1).sample(points_, T_live_ref, image, samples_);
+    Warp(camera, rows, 1).sample(points_, points_.size(), T_live_ref, image, samples_);
   }
 
   static double ramp(const Eigen::Vector2d& pixel) { return 90.0 + kSlope.dot(pixel); }
@@ -146,7 +146,7 @@ TEST_F(WarpTest, NormalisedSamplesAreOffsetAndGain) {
   cv::merge(values, 2, map.pairs);
   map.constant = 3.0F;
   const Eigen::Isometry3d T = Random(3).pose(0.05, 0.05);
-  Warp(camera, {}, 1).sampleNormalised(points_, T, image, map, 256.0, samples_);
+  Warp(camera, {}, 1).sampleNormalised(points_, points_.size(), T, image, map, 256.0, samples_);
   for (std::size_t i = 0; i < points_.size(); ++i) {
     if (samples_.visible[i] == 0.0F || samples_.u[i] > 95.0F || samples_.v[i] > 75.0F) continue;
     const Eigen::Vector2d p(static_cast<double>(samples_.u[i]), static_cast<double>(samples_.v[i]));
@@ -166,7 +166,8 @@ TEST_F(WarpTest, WhatMayBeClippedIsInViewButNotVisible) {
   map.pairs = cv::Mat(camera.height / 4 + 2, camera.width / 4 + 2, CV_32FC2, cv::Scalar(100, 10));
   map.constant = 1.0F;
   Warp(camera, {}, 1)
-      .sampleNormalised(points_, Eigen::Isometry3d::Identity(), image, map, 250.0, samples_);
+      .sampleNormalised(points_, points_.size(), Eigen::Isometry3d::Identity(), image, map, 250.0,
+                        samples_);
   std::size_t visible = 0;
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const int column = points_.pixels[i].x;
@@ -184,9 +185,9 @@ TEST_F(WarpTest, TheNumberOfThreadsDoesNotChangeABit) {
   points_ = testing::analyticPoints(testing::waves(), camera, 1);
   ASSERT_GT(points_.size(), 2U * 2048U);  // several chunks
   const Eigen::Isometry3d T = Random(4).pose(0.1, 0.1);
-  Warp(camera, {}, 1).sample(points_, T, image, samples_);
+  Warp(camera, {}, 1).sample(points_, points_.size(), T, image, samples_);
   LiveSamples threaded;
-  Warp(camera, {}, 4).sample(points_, T, image, threaded);
+  Warp(camera, {}, 4).sample(points_, points_.size(), T, image, threaded);
   EXPECT_EQ(samples_.value, threaded.value);
   EXPECT_EQ(samples_.visible, threaded.visible);
   EXPECT_EQ(samples_.num_visible, threaded.num_visible);
@@ -195,7 +196,7 @@ TEST_F(WarpTest, TheNumberOfThreadsDoesNotChangeABit) {
 TEST_F(WarpTest, NoPointsAreNoSamples) {
   const Camera camera = analyticCamera();
   const cv::Mat image(camera.height, camera.width, CV_32FC1, cv::Scalar(0));
-  Warp(camera, {}, 1).sample({}, Eigen::Isometry3d::Identity(), image, samples_);
+  Warp(camera, {}, 1).sample({}, 0, Eigen::Isometry3d::Identity(), image, samples_);
   EXPECT_EQ(samples_.num_visible, 0U);
   EXPECT_TRUE(samples_.value.empty());
 }

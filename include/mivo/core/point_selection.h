@@ -14,6 +14,7 @@ struct Pixel {
 
 struct SelectionLimits {
   int num_points;          ///< to choose at most
+  int num_leading;         ///< of them those that a smaller number would have chosen come first
   float min_gradient;      ///< grey levels per pixel
   int cell_size;           ///< pixels; the points are spread evenly over cells of this side
   float depth_edge_ratio;  ///< a point's 3 x 3 readings span at most this share of its depth
@@ -21,10 +22,11 @@ struct SelectionLimits {
 
 /// The salient pixels of a level (section III-C): gradient above a threshold, maximal along its
 /// direction, on a smooth surface with depth, and spread over the image: each cell gives its
-/// strongest ones, as many as are needed to fill the number. Row by row, left to right.
+/// strongest ones, as many as are needed to fill the number. First the leading ones row by row,
+/// left to right, then the others likewise. Returns how many lead.
 /// @param image CV_32FC1 or CV_8UC1 grey, @param depth CV_32FC1 metres (0: none), same size
-void selectSalient(const cv::Mat& image, const cv::Mat& depth, const SelectionLimits& limits,
-                   std::vector<Pixel>& pixels);
+std::size_t selectSalient(const cv::Mat& image, const cv::Mat& depth, const SelectionLimits& limits,
+                          std::vector<Pixel>& pixels);
 
 /// Every pixel with depth that has eight neighbours: for the coarsest level, where a smooth surface
 /// around each would leave too few.

@@ -22,6 +22,8 @@ constexpr int kSymmetric6 = 21;
 struct ReferencePoints {
   int level = 0;
   std::vector<Pixel> pixels;
+  /// So many of them come first and find the way for all: the strongest of every part of the image.
+  std::size_t num_leading = 0;
   /// Metres, optical frame of the keyframe at the time of its middle row.
   std::vector<float> x, y, z;
   /// What the live image is compared with, grey levels: the intensity; with local contrast

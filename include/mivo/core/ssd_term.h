@@ -19,10 +19,10 @@ namespace mivo {
 /// mind either: when they are at the first pose, the live one is taken as its negative.
 class SsdTerm : public CostTerm {
  public:
-  /// Keeps references to all arguments but the parameters. @param contrast of the live image; null:
-  /// intensities are compared as they are.
-  SsdTerm(const ReferencePoints& points, const cv::Mat& live_image, const ContrastMap* contrast,
-          const Warp& warp, const Parameters& parameters);
+  /// Of the first `num_points` points. Keeps references to all arguments but the parameters.
+  /// @param contrast of the live image; null: intensities are compared as they are.
+  SsdTerm(const ReferencePoints& points, std::size_t num_points, const cv::Mat& live_image,
+          const ContrastMap* contrast, const Warp& warp, const Parameters& parameters);
 
   double evaluate(const Eigen::Isometry3d& T_live_ref) override;
   QuadraticModel linearise(int iteration) override;
@@ -51,6 +51,7 @@ class SsdTerm : public CostTerm {
   void sample(const Eigen::Isometry3d& T_live_ref);
 
   const ReferencePoints& points_;
+  std::size_t num_points_;
   const cv::Mat& live_image_;
   const ContrastMap* contrast_;
   const Warp& warp_;

@@ -31,14 +31,15 @@ class Warp {
   /// rows are read. @param threads see the parameter.
   Warp(const Camera& camera, const RowMotion& rows, int threads);
 
-  /// Bilinear samples of a CV_32FC1 or CV_8UC1 level.
-  void sample(const ReferencePoints& points, const Eigen::Isometry3d& T_live_ref,
-              const cv::Mat& image, LiveSamples& samples) const;
+  /// Bilinear samples of a CV_32FC1 or CV_8UC1 level, for the first `num_points` points.
+  void sample(const ReferencePoints& points, std::size_t num_points,
+              const Eigen::Isometry3d& T_live_ref, const cv::Mat& image,
+              LiveSamples& samples) const;
 
   /// The same, normalised by `contrast`; points of at least `saturation` grey levels are hidden.
-  void sampleNormalised(const ReferencePoints& points, const Eigen::Isometry3d& T_live_ref,
-                        const cv::Mat& image, const ContrastMap& contrast, double saturation,
-                        LiveSamples& samples) const;
+  void sampleNormalised(const ReferencePoints& points, std::size_t num_points,
+                        const Eigen::Isometry3d& T_live_ref, const cv::Mat& image,
+                        const ContrastMap& contrast, double saturation, LiveSamples& samples) const;
 
   const Camera& camera() const { return camera_; }
   const RowMotion& rows() const { return rows_; }
@@ -48,8 +49,9 @@ class Warp {
 
  private:
   template <typename SampleChunk>
-  void sampleChunks(const ReferencePoints& points, const Eigen::Isometry3d& T_live_ref,
-                    LiveSamples& samples, const SampleChunk& sample_chunk) const;
+  void sampleChunks(const ReferencePoints& points, std::size_t num_points,
+                    const Eigen::Isometry3d& T_live_ref, LiveSamples& samples,
+                    const SampleChunk& sample_chunk) const;
 
   Camera camera_;
   RowMotion rows_;
