@@ -7,8 +7,19 @@ namespace mivo {
 namespace {
 
 constexpr double kPatienceInTheDark = 4.0;
+constexpr double kPatienceWithBlur = 1.6;
 // A keyframe is changed before its overlap is so small that frames are lost.
 constexpr double kOverlapMargin = 0.1;
+
+/// An image that shows too little, or is blurred, would be a poor reference: better one that is far
+/// away. How many times as far.
+double patienceWith(const Alignment& alignment, const KeyframeQuality& first,
+                    const Parameters& parameters) {
+  if (alignment.isBlind()) return kPatienceInTheDark;
+  const bool is_blurred = parameters.photometric_model == PhotometricModel::kLcn &&
+                          alignment.correlation < parameters.keyframe_sharpness * first.correlation;
+  return is_blurred ? kPatienceWithBlur : 1.0;
+}
 
 }  // namespace
 
@@ -18,8 +29,7 @@ bool needsNewKeyframe(const Alignment& alignment, const Keyframe& keyframe,
   // The light is back: from here on images can be compared again.
   if (alignment.is_keyframe_dark && !alignment.is_live_dark) return true;
   const Vector6 motion = localCoordinates(alignment.T_live_ref.inverse());
-  // An image that shows too little would be a poor reference: better one that is far away.
-  const double patience = alignment.isBlind() ? kPatienceInTheDark : 1.0;
+  const double patience = patienceWith(alignment, first, parameters);
   const double least_overlap = 1.0 - patience * (1.0 - parameters.keyframe_overlap);
   if (motion.head<3>().norm() >
           patience * parameters.keyframe_translation * keyframe.medianDepth() ||

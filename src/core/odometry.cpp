@@ -286,7 +286,8 @@ void Odometry::Implementation::accept(const Frame& frame, const Alignment& align
       liveCovariance(alignment.T_live_ref, alignment.covariance, keyframe.covariance);
   result_.velocity = motion_.velocity(parameters_);
   if (first_quality_.mutual_information == 0.0 && first_quality_.residual_scale == 0.0) {
-    first_quality_ = {alignment.mutual_information, alignment.residual_scale};
+    first_quality_ = {alignment.mutual_information, alignment.residual_scale,
+                      alignment.correlation};
   }
   if (needsNewKeyframe(alignment, keyframe.keyframe, first_quality_, parameters_)) {
     // In the dark the next keyframe shows less than what there is to see.

@@ -64,6 +64,27 @@ TEST_F(KeyframePolicyTest, LessInformationThanAtFirstNeedsOne) {
   EXPECT_TRUE(isNeeded());
 }
 
+TEST_F(KeyframePolicyTest, ABlurredFrameIsOneOnlyWhenThereIsNoOtherWay) {
+  parameters_.keyframe_rotation = 0.1;
+  parameters_.keyframe_sharpness = 0.8;
+  first_.correlation = 0.9;
+  alignment_.correlation = 0.73;  // as good as at first: sharp
+  alignment_.T_live_ref = retract(0.15 * Vector6::Unit(4));
+  EXPECT_TRUE(isNeeded());
+  alignment_.correlation = 0.71;
+  EXPECT_FALSE(isNeeded());
+  alignment_.T_live_ref = retract(0.17 * Vector6::Unit(4));
+  EXPECT_TRUE(isNeeded());
+  alignment_.T_live_ref.setIdentity();
+  alignment_.overlap = parameters_.keyframe_overlap - 0.01;
+  EXPECT_FALSE(isNeeded());
+  parameters_.photometric_model = PhotometricModel::kNone;  // the paper does not know of it
+  EXPECT_TRUE(isNeeded());
+  parameters_.photometric_model = PhotometricModel::kLcn;
+  parameters_.keyframe_sharpness = 0.0;
+  EXPECT_TRUE(isNeeded());
+}
+
 TEST_F(KeyframePolicyTest, AfterAKeyframeOfTheDarkTheFirstLitFrameIsOne) {
   alignment_.is_keyframe_dark = true;
   alignment_.is_live_dark = true;

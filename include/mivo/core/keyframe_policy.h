@@ -12,6 +12,7 @@ namespace mivo {
 struct KeyframeQuality {
   double mutual_information = 0.0;  ///< nats; 0: not known
   double residual_scale = 0.0;      ///< grey levels; 0: not known
+  double correlation = 0.0;         ///< 0: not known
 };
 
 /// Whether the frame that was just aligned should become the next keyframe: by motion, overlap or
