@@ -28,6 +28,8 @@ constexpr int kMinBlocks = 15;
 // What interpolation, blur and the keyframe's depth leave of systematic error, pixels: all points
 // err alike, so that no residual shows it.
 constexpr double kModelError = 0.05;
+// Where few points have led the way all of them have one short step left, and need not try it.
+constexpr double kLastTolerance = 4.0;
 
 /// Motion of the scene per frame period in the axes of the live camera at a pose.
 Vector6 twistPerPeriod(const AlignmentTask& task, const Eigen::Isometry3d& T_live_ref) {
@@ -104,18 +106,23 @@ class LevelAligner {
     return std::max(1.0, ratio.trace() / 6.0);
   }
 
-  /// Whether a descent only leads to the next one.
-  enum class Stage { kLeading, kLast };
+  /// Whether a level is one descent, or two of them: some points lead, all of them come last.
+  enum class Stage { kOnly, kLeading, kLast };
+
+  /// Levels whose result is kept are finished with care.
+  double toleranceOf(Stage stage) const {
+    if (stage == Stage::kLast) return kLastTolerance;
+    return level_ > kShutterLevel ? parameters_.coarse_tolerance : 1.0;
+  }
 
   /// Minimises the sum of the terms that there are.
-  void minimiseTerms(std::initializer_list<CostTerm*> terms, Stage stage = Stage::kLast) {
+  void minimiseTerms(std::initializer_list<CostTerm*> terms, Stage stage = Stage::kOnly) {
     terms_->clear();
     for (CostTerm* term : terms) {
       if (term != nullptr) terms_->push_back(term);
     }
     if (terms_->empty()) return;
-    // Levels whose result is kept are finished with care.
-    const double tolerance = level_ > kShutterLevel ? parameters_.coarse_tolerance : 1.0;
+    const double tolerance = toleranceOf(stage);
     // Mutual information is rugged near its maximum. Where no SSD follows that mends it, no step
     // goes untried.
     const double trusted =
@@ -126,7 +133,7 @@ class LevelAligner {
     alignment_.T_live_ref = minimum.T_live_ref;
     alignment_.information = minimum.hessian;
     alignment_.condition = minimum.condition;
-    if (level_ == 0 && stage == Stage::kLast) estimateCovariance(*terms_);
+    if (level_ == 0 && stage != Stage::kLeading) estimateCovariance(*terms_);
     record_.iterations += minimum.iterations;
     record_.evaluations += minimum.evaluations;
     record_.cost = minimum.cost / static_cast<double>(std::max<std::size_t>(1, points_.size()));
@@ -195,15 +202,17 @@ class LevelAligner {
                    warp_, parameters_);
   }
 
-  /// The iterations are done with few points; all of them then have little left to do.
-  void alignLeadingPoints() {
+  /// The iterations are done with few points, if they see enough. Returns what is left to do.
+  Stage alignLeadingPoints() {
+    if (points_.num_leading == points_.size() || alignment_.isBlind()) return Stage::kOnly;
     SsdTerm term = intensityTerm(points_.num_leading);
-    if (!isEnoughInView(term) || !term.isSignificant() || alignment_.isBlind()) return;
+    if (!isEnoughInView(term) || !term.isSignificant()) return Stage::kOnly;
     minimiseTerms({&term, geometricTerm(parameters_.geometric_points)}, Stage::kLeading);
+    return Stage::kLast;
   }
 
   void alignIntensities() {
-    if (points_.num_leading < points_.size()) alignLeadingPoints();
+    const Stage stage = alignLeadingPoints();
     SsdTerm term = intensityTerm(points_.size());
     alignment_.sees_image = isEnoughInView(term) && term.isSignificant();
     const bool shows_enough = alignment_.sees_image && !alignment_.isBlind();
@@ -212,7 +221,8 @@ class LevelAligner {
     const bool has_points = term.numVisible() >= static_cast<std::size_t>(parameters_.lost_points);
     alignment_.sees_depth = false;
     minimiseTerms({has_points ? &term : nullptr, geometry,
-                   alignment_.sees_image ? nullptr : motionPrior(geometry)});
+                   alignment_.sees_image ? nullptr : motionPrior(geometry)},
+                  stage);
     if (geometry != nullptr) judgeDepth(*geometry);
     record_.visible = static_cast<int>(term.numVisible());
     alignment_.overlap = share(term.numInView());
