@@ -110,24 +110,33 @@ void differentiate(const ReferenceImage& image, bool with_second_derivative,
   }
 }
 
-/// Depth on the ray of a pixel when its row of the image is read: the reading is taken from where
-/// the surface has moved to by the time that the depth is read, and moved back.
-float depthOnRay(const ReferenceDepth& depth, const Camera& camera, const RowMotion& rows,
-                 const Pixel& pixel) {
-  const float z = depth.metres.ptr<float>(pixel.y)[pixel.x];
-  if (depth.offset == 0.0) return z;
-  const RowMotion later{rows.twist, 0.0, depth.offset};
-  const Eigen::Vector3d point = static_cast<double>(z) * camera.ray({pixel.x, pixel.y});
-  const auto there = camera.project(point + later.displacement(point, 0.0, 1.0));
-  if (!there) return z;
-  const auto u = static_cast<int>(std::lround(there->x()));
-  const auto v = static_cast<int>(std::lround(there->y()));
-  if (u < 0 || v < 0 || u >= depth.metres.cols || v >= depth.metres.rows) return z;
-  const auto reading = static_cast<double>(depth.metres.ptr<float>(v)[u]);
-  if (!(reading > 0.0)) return z;
-  const Eigen::Vector3d seen = reading * camera.ray({u, v});
-  const double moved_back = (seen - later.displacement(seen, 0.0, 1.0)).z();
-  return moved_back > 0.5 * reading ? static_cast<float>(moved_back) : z;
+/// Depth on the points' rays when their rows of the image are read: the reading is taken from where
+/// the surface has moved to by the time that the depth is read, and moved back. @param points at
+/// the depth that their own pixels have. @param work that depth, replaced.
+void takeDepthInTime(const ReferenceDepth& depth, const Camera& camera, const Vector6& twist,
+                     const ReferencePoints& points, Workspace& work) {
+  const RowMotion later{twist, 0.0, depth.offset};
+  const auto move = [&](const Eigen::Vector3d& X) { return later.displacement(X, 0.0, 1.0); };
+  kernels::active().warpPoints(Warp(camera, later, 1).parameters(Eigen::Isometry3d::Identity()),
+                               points.view(0), points.size(), work.place_u.data(),
+                               work.place_v.data(), work.is_inside.data());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (work.is_inside[i] == 0.0F) continue;
+    const float u = std::round(work.place_u[i]);
+    const float v = std::round(work.place_v[i]);
+    const auto reading =
+        static_cast<double>(depth.metres.ptr<float>(static_cast<int>(v))[static_cast<int>(u)]);
+    if (!(reading > 0.0)) continue;
+    // The ray of a pixel half a pixel away at most: the lens bends both alike.
+    const Eigen::Vector3d point =
+        Eigen::Vector3f(points.x[i], points.y[i], points.z[i]).cast<double>();
+    Eigen::Vector3d seen = point + move(point);
+    seen *= reading / seen.z();
+    seen.x() += reading * static_cast<double>(u - work.place_u[i]) / camera.fx;
+    seen.y() += reading * static_cast<double>(v - work.place_v[i]) / camera.fy;
+    const double moved_back = (seen - move(seen)).z();
+    if (moved_back > 0.5 * reading) work.z[i] = static_cast<float>(moved_back);
+  }
 }
 
 float median(const std::vector<float>& values) {
@@ -191,11 +200,18 @@ void makeReferencePoints(const ReferenceImage& image, const ReferenceDepth& dept
   for (std::size_t i = 0; i < n; ++i) {
     work->u[i] = static_cast<float>(pixels[i].x);
     work->v[i] = static_cast<float>(pixels[i].y);
-    work->z[i] = depthOnRay(depth, camera, rows, pixels[i]);
+    work->z[i] = depth.metres.ptr<float>(pixels[i].y)[pixels[i].x];
   }
   differentiate(image, with_second_derivative, points, *work);
-  const Warp warp(camera, rows, 1);
-  derive(warp.parameters(Eigen::Isometry3d::Identity()), with_second_derivative, *work, points);
+  const auto deriveWith = [&](const RowMotion& motion) {
+    derive(Warp(camera, motion, 1).parameters(Eigen::Isometry3d::Identity()),
+           with_second_derivative, *work, points);
+  };
+  if (depth.offset != 0.0) {
+    deriveWith(RowMotion{});  // on their rays, when their own rows are read
+    takeDepthInTime(depth, camera, rows.twist, points, *work);
+  }
+  deriveWith(rows);
   points.median_depth = n > 0 ? median(points.z) : 1.0F;
 }
 

@@ -247,5 +247,42 @@ TEST(ReferencePointsTest, NormalisedPointsAreInGreyLevelsAgain) {
   }
 }
 
+TEST(ReferencePointsTest, DepthOfALaterTimeIsTakenWhereTheSurfaceIsThen) {
+  const Camera camera = lensCamera();
+  const Eigen::Vector3d normal(0.3, -0.2, -1.0);  // of a plane normal . X = distance
+  const double distance = -2.0;
+  const double offset = 0.4;
+  Vector6 twist;
+  twist << 0.02, -0.03, 0.05, 0.03, -0.04, 0.02;
+  const Eigen::Vector3d v = twist.head<3>();
+  const Eigen::Vector3d w = twist.tail<3>();
+  // A point s r of the depth image was at s r - offset (w x s r + v), which is on the plane.
+  cv::Mat depth(camera.height, camera.width, CV_32FC1);
+  for (int y = 0; y < depth.rows; ++y) {
+    for (int x = 0; x < depth.cols; ++x) {
+      const Eigen::Vector3d ray = camera.ray({x, y});
+      depth.at<float>(y, x) =
+          static_cast<float>((distance + offset * normal.dot(v)) /
+                             (normal.dot(ray) - offset * normal.dot(w.cross(ray))));
+    }
+  }
+  ReferencePoints points;
+  points.pixels = kPixels;
+  const cv::Mat image = testing::rasterised(quadratic(), camera.width, camera.height);
+  makeReferencePoints({image}, {depth, offset}, camera, RowMotion{twist, 0.0, 0.0}, false, points);
+  double unmoved = 0.0;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Pixel pixel = kPixels[i];
+    const double expected = distance / normal.dot(camera.ray({pixel.x, pixel.y}));
+    // The reading is that of the nearest pixel.
+    const double half_a_pixel = 0.5 * expected * normal.head<2>().lpNorm<1>() / camera.fx;
+    EXPECT_NEAR(static_cast<double>(points.z[i]), expected, 1.3 * half_a_pixel) << i;
+    unmoved = std::max(
+        unmoved,
+        std::abs(static_cast<double>(depth.at<float>(pixel.y, pixel.x)) - expected) / half_a_pixel);
+  }
+  EXPECT_GT(unmoved, 3.0);
+}
+
 }  // namespace
 }  // namespace mivo
