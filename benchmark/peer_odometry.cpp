@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "mivo/core/cpu_clock.h"
+#include "core/execution/cpu_clock.h"
 #include "mivo/core/error.h"
 
 namespace mivo {

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "mivo/core/cpu_clock.h"
+#include "core/execution/cpu_clock.h"
+#include "evaluation/statistics.h"
 #include "mivo/core/error.h"
-#include "mivo/evaluation/statistics.h"
 #include "mivo/io/sequence_reader.h"
 #include "mivo/io/trajectory_io.h"
 #include "peer_odometry.h"

@@ -21,7 +21,8 @@ include(GNUInstallDirs)
 function(mivo_library name)
   add_library(${name} ${ARGN})
   target_include_directories(${name} PUBLIC
-    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<INSTALL_INTERFACE:include>)
+    $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>
+    $<INSTALL_INTERFACE:include>)
   install(TARGETS ${name}
     ARCHIVE DESTINATION ${MIVO_LIB_DESTINATION}
     LIBRARY DESTINATION ${MIVO_LIB_DESTINATION})

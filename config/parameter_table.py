@@ -57,8 +57,8 @@ def read_parameters():
     for kind, arguments in ROW.findall(text):
         row = [argument.strip('"') for argument in ARGUMENT.findall(arguments)]
         if kind == "GROUP":
-            group = row[0]
-        else:
+            group = row[2]
+        elif kind != "GROUP_END":
             parameters.append(Parameter(group, kind, row))
     if not parameters:
         raise SystemExit("%s: no parameters found" % TABLE)

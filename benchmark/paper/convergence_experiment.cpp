@@ -3,8 +3,8 @@
 
 #include <cstddef>
 
-#include "mivo/core/cpu_clock.h"
-#include "mivo/core/tracker.h"
+#include "core/alignment/tracker.h"
+#include "core/execution/cpu_clock.h"
 #include "pair_experiment.h"
 #include "random_twist.h"
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "core/images/frame_pyramid.h"
+#include "core/keyframe/keyframe.h"
 #include "mivo/core/camera.h"
-#include "mivo/core/frame_pyramid.h"
-#include "mivo/core/keyframe.h"
 #include "mivo/core/parameters.h"
 
 namespace mivo {

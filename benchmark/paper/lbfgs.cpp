@@ -98,7 +98,7 @@ LbfgsResult minimiseByLbfgs(CostTerm& term, const Eigen::Isometry3d& T_live_ref,
   const ceres::GradientProblem problem(function);  // owns the function
   ceres::GradientProblemSolver::Options options;
   options.line_search_direction_type = ceres::LBFGS;
-  options.function_tolerance = parameters.min_cost_change;
+  options.function_tolerance = parameters.alignment.min_cost_change;
   options.logging_type = ceres::SILENT;
   Vector6 p = Vector6::Zero();
   ceres::GradientProblemSolver::Summary summary;

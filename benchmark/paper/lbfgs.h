@@ -3,7 +3,7 @@
 
 #include <Eigen/Geometry>
 
-#include "mivo/core/cost_term.h"
+#include "core/terms/cost_term.h"
 #include "mivo/core/parameters.h"
 
 namespace mivo {

@@ -4,9 +4,9 @@
 #include <cstddef>
 #include <string>
 
+#include "core/alignment/minimise.h"
+#include "core/execution/cpu_clock.h"
 #include "lbfgs.h"
-#include "mivo/core/cpu_clock.h"
-#include "mivo/core/minimise.h"
 #include "pair_experiment.h"
 #include "random_twist.h"
 
@@ -35,9 +35,9 @@ Outcome descend(const mivo::ImagePair& pair, const mivo::Camera& camera,
   const double begin = mivo::threadMilliseconds();
   for (int l = pair.keyframe.numLevels() - 1; l >= 0; --l) {
     const mivo::KeyframeLevel& level = pair.keyframe.level(l);
-    const mivo::Warp warp(camera.atLevel(l), mivo::RowMotion{}, parameters.threads);
-    mivo::MiTerm term(level.points, level.mi, pair.live.informationImage(l),
-                      pair.live.informationRange(l), warp, parameters);
+    const mivo::Warp warp(camera.atLevel(l), mivo::RowMotion{}, parameters.alignment.threads);
+    mivo::MiTerm term(level.points, level.mi, pair.live.miImage(l), pair.live.miRange(l), warp,
+                      parameters);
     const auto length = static_cast<double>(level.points.median_depth);
     if (optimiser == "newton") {
       const mivo::Minimum minimum = mivo::minimise({&term}, outcome.T_live_ref, length,
@@ -85,7 +85,7 @@ void run(int argc, char** argv) {
   validate(optimiser);
 
   mivo::Parameters parameters = experiment.parameters();
-  parameters.method = mivo::Method::kMi;  // the cost in question, on every level
+  parameters.alignment.method = mivo::Method::kMi;  // the cost in question, on every level
   const mivo::ImagePairs images = experiment.loadPairs(parameters);
   mivo::OutputFile file = experiment.openOutput();
   file.write(

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "random_twist.h"
 
-#include "mivo/synthetic/pixel_noise.h"
+#include "synthetic/pixel_noise.h"
 
 namespace mivo {
 

@@ -5,10 +5,10 @@
 #include <opencv2/core.hpp>
 #include <string>
 
+#include "core/keyframe/keyframe.h"
+#include "io/png_file.h"
 #include "mivo/core/error.h"
-#include "mivo/core/keyframe.h"
 #include "mivo/core/odometry.h"
-#include "mivo/io/png_file.h"
 #include "mivo/io/sequence_reader.h"
 #include "parameter_options.h"
 #include "programs/command_line.h"

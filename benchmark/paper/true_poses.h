@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "mivo/evaluation/stamps.h"
+#include "evaluation/stamps.h"
 
 namespace mivo {
 

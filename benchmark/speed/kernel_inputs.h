@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "mivo/core/kernels/kernels.h"
+#include "core/kernels/kernels.h"
 
 namespace mivo {
 

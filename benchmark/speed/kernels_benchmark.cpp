@@ -91,10 +91,10 @@ void addInformation(KernelInputs& in, const mivo::kernels::Backend& backend) {
     for (std::size_t i = 0; i < 21; ++i) second[i] = in.second_derivative[i].data();
     alignas(
         64) float rows[KernelInputs::kSide * KernelInputs::kSide * mivo::kernels::kRowFloats] = {};
-    mivo::kernels::InformationSums sums{};
-    k.informationDerivatives(in.referenceBins(), in.liveBins(), in.ones.data(),
-                             in.jacobian_rows.data(), jacobians.data(), second, in.size,
-                             KernelInputs::kSide, 7.0F / 200.0F, in.log_ratio.data(), rows, sums);
+    mivo::kernels::MiSums sums{};
+    k.miDerivatives(in.referenceBins(), in.liveBins(), in.ones.data(), in.jacobian_rows.data(),
+                    jacobians.data(), second, in.size, KernelInputs::kSide, 7.0F / 200.0F,
+                    in.log_ratio.data(), rows, sums);
     benchmark::DoNotOptimize(sums);
   });
 }

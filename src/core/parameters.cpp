@@ -131,10 +131,13 @@ const ParameterInfo& find(const std::string& name) {
 
 std::vector<ParameterInfo> makeTable() {
   using Type = ParameterInfo::Type;
-  const Parameters defaults;
+  const Parameters all;
   std::vector<ParameterInfo> table;
-  std::string group;
-#define MIVO_GROUP(title) group = title;
+#define MIVO_GROUP(Struct, member, title) \
+  {                                       \
+    const Struct& defaults = all.member;  \
+    const std::string group = title;
+#define MIVO_GROUP_END(Struct, member) }
 #define MIVO_INT(name, value, minimum, maximum, unit, update, text) \
   table.push_back({group,                                           \
                    #name,                                           \
@@ -165,6 +168,7 @@ std::vector<ParameterInfo> makeTable() {
   table.back().default_value = printEnum(table.back(), defaults.name);
 #include "mivo/core/parameters.def"
 #undef MIVO_GROUP
+#undef MIVO_GROUP_END
 #undef MIVO_INT
 #undef MIVO_DOUBLE
 #undef MIVO_BOOL
@@ -177,13 +181,17 @@ template <typename ParametersType, typename Visitor>
 void visit(ParametersType& parameters, Visitor&& visitor) {
   std::size_t row = 0;
   const std::vector<ParameterInfo>& table = parameterTable();
-#define MIVO_GROUP(title)
-#define MIVO_INT(name, ...) visitor(table[row++], parameters.name);
-#define MIVO_DOUBLE(name, ...) visitor(table[row++], parameters.name);
-#define MIVO_BOOL(name, ...) visitor(table[row++], parameters.name);
-#define MIVO_ENUM(Type, name, ...) visitor(table[row++], parameters.name);
+#define MIVO_GROUP(Struct, member, title) \
+  {                                       \
+    auto& group = parameters.member;
+#define MIVO_GROUP_END(Struct, member) }
+#define MIVO_INT(name, ...) visitor(table[row++], group.name);
+#define MIVO_DOUBLE(name, ...) visitor(table[row++], group.name);
+#define MIVO_BOOL(name, ...) visitor(table[row++], group.name);
+#define MIVO_ENUM(Type, name, ...) visitor(table[row++], group.name);
 #include "mivo/core/parameters.def"
 #undef MIVO_GROUP
+#undef MIVO_GROUP_END
 #undef MIVO_INT
 #undef MIVO_DOUBLE
 #undef MIVO_BOOL
@@ -227,7 +235,7 @@ std::string getParameter(const Parameters& parameters, const std::string& name) 
   return text;
 }
 
-bool needsNewKeyframe(const Parameters& before, const Parameters& after) {
+bool actWithKeyframe(const Parameters& before, const Parameters& after) {
   return std::any_of(parameterTable().begin(), parameterTable().end(),
                      [&](const ParameterInfo& info) {
                        return info.update == Update::kKeyframe &&
@@ -240,9 +248,9 @@ void Parameters::validate() const {
   for (const ParameterInfo& info : parameterTable()) {
     setParameter(scratch, info.name, getParameter(*this, info.name));
   }
-  if (min_depth >= max_depth) {
-    throw Error("parameter 'min_depth': " + toText(min_depth) + " m is not below max_depth, " +
-                toText(max_depth) + " m");
+  if (depth.min_depth >= depth.max_depth) {
+    throw Error("parameter 'min_depth': " + toText(depth.min_depth) +
+                " m is not below max_depth, " + toText(depth.max_depth) + " m");
   }
 }
 

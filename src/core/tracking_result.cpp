@@ -22,21 +22,41 @@ const char* toString(TrackingReason reason) {
     case TrackingReason::kNone:
       return "none";
     case TrackingReason::kInvalidFrame:
-      return "frame does not fit the camera or is not newer";
+      return "frame does not fit the camera";
+    case TrackingReason::kStaleStamp:
+      return "stamp is not newer than that of the frame before";
     case TrackingReason::kTooFewPoints:
       return "too few points with depth and texture";
     case TrackingReason::kNoOverlap:
       return "too little of the keyframe in view";
-    case TrackingReason::kNoInformation:
+    case TrackingReason::kNothingInCommon:
       return "image has nothing in common with the keyframe";
-    case TrackingReason::kSingular:
-      return "image does not fix all directions";
+    case TrackingReason::kOpenDirections:
+      return "no view of some directions of motion";
     case TrackingReason::kImplausibleMotion:
       return "motion faster than the limits";
     case TrackingReason::kNotFinite:
       return "alignment diverged";
   }
   return "unknown";
+}
+
+std::string describeReason(const TrackingResult& result) {
+  static constexpr const char* kNames[] = {"sideways",
+                                           "up and down",
+                                           "forward",
+                                           "turning about the sideways axis",
+                                           "turning about the vertical axis",
+                                           "turning about the viewing axis"};
+  std::string names;
+  for (std::size_t i = 0; i < result.open_directions.size(); ++i) {
+    if (!result.open_directions[i]) continue;
+    names += (names.empty() ? " " : ", ") + std::string(kNames[i]);
+  }
+  if (result.reason != TrackingReason::kOpenDirections || names.empty()) {
+    return toString(result.reason);
+  }
+  return "no view of motion" + names;
 }
 
 }  // namespace mivo

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/evaluation/absolute_trajectory_error.h"
+#include "evaluation/absolute_trajectory_error.h"
 
 #include <fmt/format.h>
 
-#include "mivo/core/association.h"
+#include "evaluation/alignment.h"
+#include "evaluation/stamps.h"
 #include "mivo/core/error.h"
-#include "mivo/evaluation/alignment.h"
-#include "mivo/evaluation/stamps.h"
+#include "trajectory/association.h"
 
 namespace mivo {
 

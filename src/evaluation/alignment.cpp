@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/evaluation/alignment.h"
+#include "evaluation/alignment.h"
 
 namespace mivo {
 

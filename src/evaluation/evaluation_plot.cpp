@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/evaluation/evaluation_plot.h"
+#include "evaluation/evaluation_plot.h"
 
 #include <fmt/format.h>
 
 #include <cmath>
 
-#include "mivo/evaluation/plot_panel.h"
-#include "mivo/evaluation/stamps.h"
+#include "evaluation/plot_panel.h"
+#include "evaluation/stamps.h"
 
 namespace mivo {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/evaluation/plot_panel.h"
+#include "evaluation/plot_panel.h"
 
 #include <fmt/format.h>
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/evaluation/relative_pose_error.h"
+#include "evaluation/relative_pose_error.h"
 
 #include <cmath>
 #include <functional>
 
+#include "evaluation/stamps.h"
 #include "mivo/core/se3.h"
-#include "mivo/evaluation/stamps.h"
 
 namespace mivo {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/evaluation/stamps.h"
+#include "evaluation/stamps.h"
 
 #include <algorithm>
 #include <cmath>

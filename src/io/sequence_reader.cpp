@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "mivo/core/association.h"
+#include "io/png_file.h"
+#include "io/table_reader.h"
 #include "mivo/core/error.h"
-#include "mivo/io/png_file.h"
-#include "mivo/io/table_reader.h"
+#include "trajectory/association.h"
 
 namespace mivo {
 namespace {

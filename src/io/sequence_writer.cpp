@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/io/sequence_writer.h"
+#include "io/sequence_writer.h"
 
 #include <fmt/format.h>
 
@@ -8,8 +8,8 @@
 #include <filesystem>
 #include <limits>
 
+#include "io/png_file.h"
 #include "mivo/core/error.h"
-#include "mivo/io/png_file.h"
 
 namespace mivo {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/io/table_reader.h"
+#include "io/table_reader.h"
 
 #include <cerrno>
 #include <cmath>

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
+#include "io/table_reader.h"
 #include "mivo/core/error.h"
-#include "mivo/io/table_reader.h"
 
 namespace mivo {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "device_address.h"
+#include "openni2/device_address.h"
 
 #include <sys/stat.h>
 #include <unistd.h>
@@ -8,8 +8,8 @@
 #include <array>
 #include <cctype>
 
-#include "mivo/openni2/device_error.h"
-#include "mivo/openni2/usb_access.h"
+#include "openni2/device_error.h"
+#include "openni2/usb_access.h"
 
 namespace mivo {
 namespace {

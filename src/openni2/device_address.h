@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "openni2_library.h"
+#include "openni2/openni2_library.h"
 
 namespace mivo {
 

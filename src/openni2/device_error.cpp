@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/openni2/device_error.h"
+#include "openni2/device_error.h"
 
 namespace mivo {
 

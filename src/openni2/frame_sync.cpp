@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "frame_sync.h"
+#include "openni2/frame_sync.h"
 
 #include <PS1080.h>
 

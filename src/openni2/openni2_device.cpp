@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/openni2/openni2_device.h"
+#include "openni2/openni2_device.h"
 
 #include <OpenNI.h>
 
@@ -8,11 +8,11 @@
 #include <type_traits>
 #include <utility>
 
-#include "device_address.h"
-#include "frame_sync.h"
-#include "mivo/openni2/device_error.h"
-#include "openni2_library.h"
-#include "video_mode.h"
+#include "openni2/device_address.h"
+#include "openni2/device_error.h"
+#include "openni2/frame_sync.h"
+#include "openni2/openni2_library.h"
+#include "openni2/video_mode.h"
 
 namespace mivo {
 namespace {

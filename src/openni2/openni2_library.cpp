@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "openni2_library.h"
+#include "openni2/openni2_library.h"
 
 #include <OpenNI.h>
 
 #include <mutex>
 #include <sstream>
 
-#include "mivo/openni2/device_error.h"
+#include "openni2/device_error.h"
 
 namespace mivo {
 

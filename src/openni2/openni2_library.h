@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "mivo/openni2/camera_device.h"
+#include "openni2/camera_device.h"
 
 namespace mivo {
 

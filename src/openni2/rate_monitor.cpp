@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/openni2/rate_monitor.h"
+#include "openni2/rate_monitor.h"
 
 namespace mivo {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/openni2/usb_access.h"
+#include "openni2/usb_access.h"
 
 #include <unistd.h>
 

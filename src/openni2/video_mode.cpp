@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "video_mode.h"
+#include "openni2/video_mode.h"
 
 #include <cmath>
 #include <string>
 
-#include "mivo/openni2/device_error.h"
-#include "openni2_library.h"
+#include "openni2/device_error.h"
+#include "openni2/openni2_library.h"
 
 namespace mivo {
 namespace {

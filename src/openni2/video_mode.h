@@ -3,7 +3,7 @@
 
 #include <OpenNI.h>
 
-#include "mivo/openni2/camera_device.h"
+#include "openni2/camera_device.h"
 
 namespace mivo {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "mivo/ros/bag_topics.h"
 #include "programs/command_line.h"
+#include "ros/bag_topics.h"
 
 namespace mivo {
 

@@ -3,12 +3,12 @@
 #include <opencv2/imgproc.hpp>
 #include <string>
 
+#include "io/sequence_writer.h"
 #include "mivo/core/error.h"
-#include "mivo/io/sequence_writer.h"
-#include "mivo/ros/bag_source.h"
 #include "programs/bag_options.h"
 #include "programs/command_line.h"
 #include "programs/progress_bar.h"
+#include "ros/bag_source.h"
 
 namespace {
 

@@ -3,10 +3,10 @@
 #include <iostream>
 #include <string>
 
-#include "mivo/evaluation/evaluation_plot.h"
-#include "mivo/evaluation/report.h"
+#include "evaluation/evaluation_plot.h"
+#include "evaluation/report.h"
+#include "io/png_file.h"
 #include "mivo/io/output_file.h"
-#include "mivo/io/png_file.h"
 #include "mivo/io/trajectory_io.h"
 #include "programs/command_line.h"
 

@@ -11,13 +11,13 @@
 #include <string>
 #include <vector>
 
+#include "io/png_file.h"
+#include "io/sequence_writer.h"
 #include "mivo/core/error.h"
 #include "mivo/io/output_file.h"
-#include "mivo/io/png_file.h"
-#include "mivo/io/sequence_writer.h"
-#include "mivo/synthetic/sequence_generator.h"
 #include "programs/command_line.h"
 #include "programs/progress_bar.h"
+#include "synthetic/sequence_generator.h"
 
 namespace {
 

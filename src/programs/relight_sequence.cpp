@@ -9,15 +9,15 @@
 #include <string>
 #include <vector>
 
+#include "io/png_file.h"
+#include "io/table_reader.h"
 #include "mivo/core/error.h"
 #include "mivo/io/camera_file.h"
 #include "mivo/io/output_file.h"
-#include "mivo/io/png_file.h"
 #include "mivo/io/sequence_reader.h"
-#include "mivo/io/table_reader.h"
-#include "mivo/synthetic/relighting.h"
 #include "programs/command_line.h"
 #include "programs/progress_bar.h"
+#include "synthetic/relighting.h"
 
 namespace {
 

@@ -2,10 +2,10 @@
 #include <iostream>
 #include <string>
 
-#include "mivo/ros/bag_source.h"
 #include "programs/bag_options.h"
 #include "programs/command_line.h"
 #include "programs/tracking_run.h"
+#include "ros/bag_source.h"
 
 namespace {
 

@@ -5,14 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "io/png_file.h"
+#include "io/table_reader.h"
 #include "mivo/core/error.h"
 #include "mivo/io/camera_file.h"
-#include "mivo/io/png_file.h"
-#include "mivo/io/table_reader.h"
 #include "mivo/io/trajectory_io.h"
-#include "mivo/ros/bag_writer.h"
 #include "programs/command_line.h"
 #include "programs/progress_bar.h"
+#include "ros/bag_writer.h"
 
 namespace {
 

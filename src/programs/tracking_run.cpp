@@ -5,10 +5,10 @@
 #include <memory>
 #include <opencv2/core/utility.hpp>
 
-#include "mivo/core/cpu_clock.h"
+#include "core/execution/cpu_clock.h"
+#include "evaluation/statistics.h"
 #include "mivo/core/error.h"
 #include "mivo/core/odometry.h"
-#include "mivo/evaluation/statistics.h"
 #include "mivo/io/trajectory_io.h"
 #include "programs/progress_bar.h"
 #include "programs/statistics_file.h"
@@ -51,15 +51,15 @@ const TrackingResult& process(Odometry& odometry, const Frame& frame,
 
 TrackingSummary trackFrames(FrameSource& source, const TrackingOptions& options) {
   // OpenCV warns of more threads than there are processors; the result is the same.
-  cv::setNumThreads(std::min(options.parameters.threads, cv::getNumberOfCPUs()));
+  cv::setNumThreads(std::min(options.parameters.alignment.threads, cv::getNumberOfCPUs()));
   const Overwrite overwrite = options.force ? Overwrite::kYes : Overwrite::kNo;
   Odometry odometry(source.camera(), options.parameters);
   if (!options.statistics.empty()) refuseExisting(options.statistics, overwrite);
   TrajectoryWriter trajectory(options.output, overwrite);
   std::unique_ptr<StatisticsFile> statistics;
   if (!options.statistics.empty()) {
-    statistics =
-        std::make_unique<StatisticsFile>(options.statistics, overwrite, options.parameters.levels);
+    statistics = std::make_unique<StatisticsFile>(options.statistics, overwrite,
+                                                  options.parameters.alignment.levels);
   }
   std::optional<Disturbance> disturbance = options.disturbance;
   ProgressBar progress(source.size());

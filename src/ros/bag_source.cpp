@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/ros/bag_source.h"
+#include "ros/bag_source.h"
 
 #include <nav_msgs/Path.h>
 #include <rosbag/view.h>
@@ -7,13 +7,13 @@
 
 #include <algorithm>
 
-#include "header_only.h"
-#include "mivo/core/association.h"
 #include "mivo/core/error.h"
-#include "mivo/ros/camera_conversion.h"
-#include "mivo/ros/pose_conversion.h"
-#include "mivo/ros/stamp.h"
-#include "mivo/ros/topics.h"
+#include "ros/camera_conversion.h"
+#include "ros/header_only.h"
+#include "ros/pose_conversion.h"
+#include "ros/stamp.h"
+#include "ros/topics.h"
+#include "trajectory/association.h"
 
 namespace mivo {
 namespace {

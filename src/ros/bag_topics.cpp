@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/ros/bag_topics.h"
+#include "ros/bag_topics.h"
 
 #include <algorithm>
 #include <array>
 
 #include "mivo/core/error.h"
-#include "mivo/ros/topics.h"
+#include "ros/topics.h"
 
 namespace mivo {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/ros/bag_writer.h"
+#include "ros/bag_writer.h"
 
 #include <nav_msgs/Path.h>
 #include <sensor_msgs/CompressedImage.h>
@@ -16,10 +16,10 @@
 
 #include "mivo/core/error.h"
 #include "mivo/io/output_file.h"
-#include "mivo/ros/camera_conversion.h"
-#include "mivo/ros/pose_conversion.h"
-#include "mivo/ros/stamp.h"
-#include "mivo/ros/topics.h"
+#include "ros/camera_conversion.h"
+#include "ros/pose_conversion.h"
+#include "ros/stamp.h"
+#include "ros/topics.h"
 
 namespace mivo {
 namespace {

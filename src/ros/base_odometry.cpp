@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/ros/base_odometry.h"
+#include "ros/base_odometry.h"
 
-#include <Eigen/Eigenvalues>
-#include <algorithm>
 #include <cmath>
 
-#include "mivo/ros/pose_conversion.h"
+#include "ros/pose_conversion.h"
 
 namespace mivo {
 namespace {
@@ -41,24 +39,6 @@ void write(const Matrix6& covariance, Array& array) {
 }
 
 }  // namespace
-
-Matrix6 boundedCovariance(const Matrix6& covariance) {
-  if (!covariance.allFinite()) return Matrix6::Identity() * kUnknownVariance;
-  const Matrix6 symmetric = 0.5 * (covariance + covariance.transpose());
-  const Eigen::SelfAdjointEigenSolver<Matrix6> solver(symmetric);
-  const Vector6 values = solver.eigenvalues();
-  if (solver.info() != Eigen::Success) return Matrix6::Identity() * kUnknownVariance;
-  if (values.minCoeff() >= kMinVariance && values.maxCoeff() <= kMaxVariance) return symmetric;
-  const Vector6 bounded = values.cwiseMax(kMinVariance).cwiseMin(kMaxVariance);
-  const Matrix6 result =
-      solver.eigenvectors() * bounded.asDiagonal() * solver.eigenvectors().transpose();
-  return 0.5 * (result + result.transpose());
-}
-
-Matrix6 twistCovariance(const Matrix6& before, const Matrix6& now, double seconds) {
-  if (!(seconds > 0.0)) return Matrix6::Identity() * kUnknownVariance;
-  return boundedCovariance((before + now) / (seconds * seconds));
-}
 
 BaseOdometry toBase(const TrackingResult& result, const Matrix6& camera_twist_covariance,
                     const Eigen::Isometry3d& T_odom_world, const Eigen::Isometry3d& T_base_camera) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/ros/camera_calibration.h"
+#include "ros/camera_calibration.h"
 
 #include <ros/console.h>
 #include <sensor_msgs/distortion_models.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/ros/camera_diagnostics.h"
+#include "ros/camera_diagnostics.h"
 
 #include <diagnostic_msgs/DiagnosticStatus.h>
 

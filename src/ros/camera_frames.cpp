@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/ros/camera_frames.h"
+#include "ros/camera_frames.h"
 
 #include <ros/time.h>
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/ros/camera_parameters.h"
+#include "ros/camera_parameters.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "mivo/core/error.h"
-#include "mivo/ros/ros_parameter.h"
+#include "ros/ros_parameter.h"
 
 namespace mivo {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/ros/camera_publisher.h"
+#include "ros/camera_publisher.h"
 
 #include <boost/predef/other/endian.h>
 #include <image_transport/image_transport.h>

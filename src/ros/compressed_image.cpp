@@ -10,7 +10,7 @@
 
 #include "mivo/core/error.h"
 #include "mivo/core/frame.h"
-#include "mivo/ros/image_conversion.h"
+#include "ros/image_conversion.h"
 
 namespace mivo {
 namespace {

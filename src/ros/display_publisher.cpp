@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/ros/display_publisher.h"
+#include "ros/display_publisher.h"
 
 #include <cv_bridge/cv_bridge.h>
 #include <image_transport/image_transport.h>
@@ -11,8 +11,8 @@
 #include <algorithm>
 #include <boost/make_shared.hpp>
 
-#include "mivo/ros/node_topics.h"
-#include "mivo/ros/topics.h"
+#include "ros/node_topics.h"
+#include "ros/topics.h"
 
 namespace mivo {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/ros/frame_input.h"
+#include "ros/frame_input.h"
 
 #include <fmt/format.h>
 #include <ros/console.h>
@@ -8,9 +8,9 @@
 #include <cmath>
 #include <utility>
 
-#include "mivo/core/association.h"
-#include "mivo/ros/node_topics.h"
-#include "mivo/ros/stamp.h"
+#include "ros/node_topics.h"
+#include "ros/stamp.h"
+#include "trajectory/association.h"
 
 namespace mivo {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/ros/image_port.h"
+#include "ros/image_port.h"
 
 #include <image_transport/image_transport.h>
 

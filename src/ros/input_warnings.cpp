@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/ros/input_warnings.h"
+#include "ros/input_warnings.h"
 
 #include <ros/console.h>
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/ros/message_frame.h"
+#include "ros/message_frame.h"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "mivo/core/error.h"
-#include "mivo/ros/camera_conversion.h"
-#include "mivo/ros/stamp.h"
+#include "ros/camera_conversion.h"
+#include "ros/stamp.h"
 
 namespace mivo {
 namespace {

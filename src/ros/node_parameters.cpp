@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/ros/node_parameters.h"
+#include "ros/node_parameters.h"
 
 #include "mivo/core/error.h"
-#include "mivo/ros/ros_parameter.h"
+#include "ros/ros_parameter.h"
 
 namespace mivo {
 namespace {

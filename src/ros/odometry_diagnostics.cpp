@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/ros/odometry_diagnostics.h"
+#include "ros/odometry_diagnostics.h"
 
 #include <algorithm>
 #include <functional>
 
-#include "mivo/evaluation/statistics.h"
+#include "evaluation/statistics.h"
 
 namespace mivo {
 namespace {

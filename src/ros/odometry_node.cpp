@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/ros/odometry_node.h"
+#include "ros/odometry_node.h"
 
 #include <ros/console.h>
 
-#include "mivo/core/cpu_clock.h"
+#include "core/execution/cpu_clock.h"
 #include "mivo/core/error.h"
-#include "mivo/ros/camera_conversion.h"
-#include "mivo/ros/parameter_server.h"
-#include "mivo/ros/status_conversion.h"
+#include "ros/camera_conversion.h"
+#include "ros/parameter_server.h"
+#include "ros/status_conversion.h"
 
 namespace mivo {
 namespace {

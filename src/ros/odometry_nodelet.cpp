@@ -5,7 +5,7 @@
 #include <pluginlib/class_list_macros.hpp>
 
 #include "mivo/core/error.h"
-#include "mivo/ros/odometry_node.h"
+#include "ros/odometry_node.h"
 
 namespace mivo {
 

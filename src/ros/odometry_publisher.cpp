@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/ros/odometry_publisher.h"
+#include "ros/odometry_publisher.h"
 
 #include <algorithm>
 
-#include "mivo/ros/node_topics.h"
-#include "mivo/ros/pose_conversion.h"
-#include "mivo/ros/topics.h"
+#include "ros/node_topics.h"
+#include "ros/pose_conversion.h"
+#include "ros/topics.h"
 
 namespace mivo {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/ros/odometry_services.h"
+#include "ros/odometry_services.h"
 
 #include "mivo/core/error.h"
-#include "mivo/ros/pose_conversion.h"
-#include "mivo/ros/topics.h"
+#include "ros/pose_conversion.h"
+#include "ros/topics.h"
 
 namespace mivo {
 namespace {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/ros/openni2_node.h"
+#include "ros/openni2_node.h"
 
 #include <ros/console.h>
 
-#include "mivo/openni2/openni2_device.h"
-#include "mivo/ros/camera_frames.h"
+#include "openni2/openni2_device.h"
+#include "ros/camera_frames.h"
 
 namespace mivo {
 namespace {

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "mivo/core/error.h"
-#include "mivo/ros/openni2_node.h"
+#include "ros/openni2_node.h"
 
 namespace mivo {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/ros/parameter_server.h"
+#include "ros/parameter_server.h"
 
 #include <algorithm>
 #include <limits>
@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "mivo/core/error.h"
-#include "mivo/ros/ros_parameter.h"
+#include "ros/ros_parameter.h"
 
 namespace mivo {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/ros/pose_conversion.h"
+#include "ros/pose_conversion.h"
 
 #include <cmath>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/ros/reconfigure_server.h"
+#include "ros/reconfigure_server.h"
 
 #include <mivo/OdometryConfig.h>
 #include <ros/console.h>
 
-#include "mivo/ros/parameter_server.h"
+#include "ros/parameter_server.h"
 
 namespace mivo {
 

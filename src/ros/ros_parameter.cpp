@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/ros/ros_parameter.h"
+#include "ros/ros_parameter.h"
 
 #include <sstream>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/ros/stamp.h"
+#include "ros/stamp.h"
 
 #include <cmath>
 #include <iomanip>

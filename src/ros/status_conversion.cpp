@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/ros/status_conversion.h"
+#include "ros/status_conversion.h"
+
+#include <algorithm>
 
 namespace mivo {
 namespace {
@@ -25,16 +27,18 @@ std::uint8_t code(TrackingReason reason) {
       return TrackingStatus::REASON_NONE;
     case TrackingReason::kInvalidFrame:
       return TrackingStatus::REASON_INVALID_FRAME;
+    case TrackingReason::kStaleStamp:
+      return TrackingStatus::REASON_STALE_STAMP;
     case TrackingReason::kTooFewPoints:
       return TrackingStatus::REASON_TOO_FEW_POINTS;
     case TrackingReason::kNoOverlap:
       return TrackingStatus::REASON_NO_OVERLAP;
-    case TrackingReason::kSingular:
-      return TrackingStatus::REASON_SINGULAR;
+    case TrackingReason::kOpenDirections:
+      return TrackingStatus::REASON_OPEN_DIRECTIONS;
     case TrackingReason::kImplausibleMotion:
       return TrackingStatus::REASON_IMPLAUSIBLE_MOTION;
-    case TrackingReason::kNoInformation:
-      return TrackingStatus::REASON_NO_INFORMATION;
+    case TrackingReason::kNothingInCommon:
+      return TrackingStatus::REASON_NOTHING_IN_COMMON;
     case TrackingReason::kNotFinite:
       break;
   }
@@ -62,7 +66,9 @@ TrackingStatus toMessage(const TrackingResult& result) {
   message.state = code(result.state);
   message.state_text = toString(result.state);
   message.reason = code(result.reason);
-  message.reason_text = toString(result.reason);
+  message.reason_text = describeReason(result);
+  std::copy(result.open_directions.begin(), result.open_directions.end(),
+            message.open_directions.begin());
   message.keyframe = result.keyframe;
   message.new_keyframe = result.new_keyframe;
   message.keyframes = result.keyframes;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/ros/trajectory_recorder.h"
+#include "ros/trajectory_recorder.h"
 
 #include <filesystem>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/ros/transform_source.h"
+#include "ros/transform_source.h"
 
 #include <ros/console.h>
 
-#include "mivo/ros/pose_conversion.h"
+#include "ros/pose_conversion.h"
 
 namespace mivo {
 namespace {

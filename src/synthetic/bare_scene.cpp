@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <utility>
 
-#include "mivo/synthetic/texture_patterns.h"
-#include "scene_builder.h"
-#include "scenes.h"
+#include "synthetic/scene_builder.h"
+#include "synthetic/scenes.h"
+#include "synthetic/texture_patterns.h"
 
 namespace mivo {
 namespace {

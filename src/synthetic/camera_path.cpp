@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/synthetic/camera_path.h"
+#include "synthetic/camera_path.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "mivo/core/error.h"
-#include "mivo/synthetic/pixel_noise.h"
+#include "synthetic/pixel_noise.h"
 
 namespace mivo {
 namespace {

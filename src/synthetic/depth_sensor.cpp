@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/synthetic/depth_sensor.h"
+#include "synthetic/depth_sensor.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "mivo/core/error.h"
-#include "mivo/synthetic/pixel_noise.h"
+#include "synthetic/pixel_noise.h"
 
 namespace mivo {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/synthetic/imager.h"
+#include "synthetic/imager.h"
 
 #include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>
 
 #include "mivo/core/error.h"
-#include "mivo/synthetic/pixel_noise.h"
+#include "synthetic/pixel_noise.h"
 
 namespace mivo {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/synthetic/light_map.h"
+#include "synthetic/light_map.h"
 
 #include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>
 
-#include "mivo/synthetic/pixel_noise.h"
-#include "mivo/synthetic/spectral_noise.h"
+#include "synthetic/pixel_noise.h"
+#include "synthetic/spectral_noise.h"
 
 namespace mivo {
 namespace {

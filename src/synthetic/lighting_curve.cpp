@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/synthetic/lighting_curve.h"
+#include "synthetic/lighting_curve.h"
 
 #include <algorithm>
 #include <cmath>

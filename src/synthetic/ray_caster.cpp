@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/synthetic/ray_caster.h"
+#include "synthetic/ray_caster.h"
 
 #include <embree3/rtcore.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/synthetic/relighting.h"
+#include "synthetic/relighting.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "mivo/core/error.h"
-#include "mivo/synthetic/pixel_noise.h"
+#include "synthetic/pixel_noise.h"
 
 namespace mivo {
 namespace {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/synthetic/renderer.h"
+#include "synthetic/renderer.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <opencv2/core.hpp>
 
-#include "mivo/synthetic/pixel_noise.h"
-#include "scene_builder.h"
+#include "synthetic/pixel_noise.h"
+#include "synthetic/scene_builder.h"
 
 namespace mivo {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/synthetic/scene.h"
+#include "synthetic/scene.h"
 
 #include <algorithm>
 #include <cmath>
 
 #include "mivo/core/error.h"
-#include "scene_builder.h"
-#include "scenes.h"
+#include "synthetic/scene_builder.h"
+#include "synthetic/scenes.h"
 
 namespace mivo {
 namespace {

@@ -4,8 +4,8 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 
-#include "mivo/synthetic/scene.h"
-#include "mivo/synthetic/texture_patterns.h"
+#include "synthetic/scene.h"
+#include "synthetic/texture_patterns.h"
 
 namespace mivo {
 

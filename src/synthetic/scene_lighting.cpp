@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/synthetic/scene_lighting.h"
+#include "synthetic/scene_lighting.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "mivo/synthetic/scene.h"
+#include "synthetic/scene.h"
 
 namespace mivo {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/synthetic/spectral_noise.h"
+#include "synthetic/spectral_noise.h"
 
 #include <cmath>
 #include <opencv2/core.hpp>
 
-#include "mivo/synthetic/pixel_noise.h"
+#include "synthetic/pixel_noise.h"
 
 namespace mivo {
 

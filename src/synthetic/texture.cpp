@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/synthetic/texture.h"
+#include "synthetic/texture.h"
 
 #include <algorithm>
 #include <cmath>

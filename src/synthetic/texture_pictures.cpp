@@ -5,9 +5,9 @@
 #include <opencv2/imgproc.hpp>
 #include <string>
 
-#include "mivo/synthetic/pixel_noise.h"
-#include "mivo/synthetic/spectral_noise.h"
-#include "mivo/synthetic/texture_patterns.h"
+#include "synthetic/pixel_noise.h"
+#include "synthetic/spectral_noise.h"
+#include "synthetic/texture_patterns.h"
 
 namespace mivo {
 namespace {

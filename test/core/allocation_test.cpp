@@ -57,10 +57,10 @@ TEST(AllocationTest, AFrameAllocatesNothingOnceTheBuffersHaveGrown) {
   for (const Method method : {Method::kHybrid, Method::kMi, Method::kSsd}) {
     for (const PhotometricModel model : {PhotometricModel::kLcn, PhotometricModel::kNone}) {
       Parameters parameters;
-      parameters.method = method;
-      parameters.photometric_model = model;
-      parameters.keyframe_translation = 0.03;
-      parameters.depth_time_offset_estimation = true;
+      parameters.alignment.method = method;
+      parameters.alignment.photometric_model = model;
+      parameters.keyframes.keyframe_translation = 0.03;
+      parameters.shutter.depth_time_offset_estimation = true;
       int keyframes = 0;
       EXPECT_EQ(allocationsOfLastWalk(recording, parameters, 16, keyframes), 0U)
           << "method " << static_cast<int>(method) << ", model " << static_cast<int>(model);

@@ -6,8 +6,8 @@
 #include <limits>
 #include <opencv2/imgproc.hpp>
 
+#include "core/images/image_pyramid.h"
 #include "mivo/core/error.h"
-#include "mivo/core/image_pyramid.h"
 #include "support/analytic_image.h"
 #include "support/numeric_derivative.h"
 #include "support/random_pose.h"

@@ -108,13 +108,13 @@ TEST(ParametersTest, TheFieldOfTheStructIsWhatIsSet) {
   setParameter(parameters, "keyframe_policy", "first");
   setParameter(parameters, "motion_model", "constant_pose");
   setParameter(parameters, "mi_hessian", "reference");
-  EXPECT_EQ(parameters.method, Method::kMi);
-  EXPECT_EQ(parameters.mi_bins, 16);
-  EXPECT_EQ(parameters.min_depth, 0.75);
-  EXPECT_EQ(parameters.robust_weight, RobustWeight::kStudentT);
-  EXPECT_EQ(parameters.keyframe_policy, KeyframePolicy::kFirst);
-  EXPECT_EQ(parameters.motion_model, Prediction::kConstantPose);
-  EXPECT_EQ(parameters.mi_hessian, MiHessian::kReference);
+  EXPECT_EQ(parameters.alignment.method, Method::kMi);
+  EXPECT_EQ(parameters.mi.mi_bins, 16);
+  EXPECT_EQ(parameters.depth.min_depth, 0.75);
+  EXPECT_EQ(parameters.ssd.robust_weight, RobustWeight::kStudentT);
+  EXPECT_EQ(parameters.keyframes.keyframe_policy, KeyframePolicy::kFirst);
+  EXPECT_EQ(parameters.motion.motion_model, MotionModelKind::kConstantPose);
+  EXPECT_EQ(parameters.mi.mi_hessian, MiHessian::kReference);
 }
 
 TEST(ParametersTest, AnUnknownNameIsAnsweredWithTheNearestOne) {
@@ -158,14 +158,14 @@ TEST(ParametersTest, AWrongWordIsAnsweredWithTheRightOnes) {
 
 TEST(ParametersTest, ARefusedValueChangesNothing) {
   Parameters parameters;
-  parameters.mi_bins = 12;
+  parameters.mi.mi_bins = 12;
   EXPECT_THROW(setParameter(parameters, "mi_bins", "1000"), Error);
-  EXPECT_EQ(parameters.mi_bins, 12);
+  EXPECT_EQ(parameters.mi.mi_bins, 12);
 }
 
 TEST(ParametersTest, ValidateNamesTheField) {
   Parameters parameters;
-  parameters.max_step_pixels = std::numeric_limits<double>::quiet_NaN();
+  parameters.alignment.max_step_pixels = std::numeric_limits<double>::quiet_NaN();
   try {
     parameters.validate();
     ADD_FAILURE();
@@ -173,17 +173,17 @@ TEST(ParametersTest, ValidateNamesTheField) {
     EXPECT_TRUE(contains(error.what(), "max_step_pixels"));
   }
   parameters = Parameters();
-  parameters.levels = 9;
+  parameters.alignment.levels = 9;
   EXPECT_THROW(parameters.validate(), Error);
   parameters = Parameters();
-  parameters.method = static_cast<Method>(17);
+  parameters.alignment.method = static_cast<Method>(17);
   EXPECT_THROW(parameters.validate(), Error);
 }
 
 TEST(ParametersTest, TheNearLimitOfDepthIsBelowTheFarOne) {
   Parameters parameters;
-  parameters.min_depth = 3.0;
-  parameters.max_depth = 2.0;
+  parameters.depth.min_depth = 3.0;
+  parameters.depth.max_depth = 2.0;
   try {
     parameters.validate();
     ADD_FAILURE();
@@ -194,7 +194,7 @@ TEST(ParametersTest, TheNearLimitOfDepthIsBelowTheFarOne) {
 }
 
 TEST(ParametersTest, ANewKeyframeIsNeededForExactlyTheRowsThatSaySo) {
-  EXPECT_FALSE(needsNewKeyframe({}, {}));
+  EXPECT_FALSE(actWithKeyframe({}, {}));
   for (const ParameterInfo& info : parameterTable()) {
     Parameters changed;
     std::string value = info.default_value;
@@ -207,7 +207,7 @@ TEST(ParametersTest, ANewKeyframeIsNeededForExactlyTheRowsThatSaySo) {
       value = std::to_string(is_minimum ? info.maximum : info.minimum);
     }
     setParameter(changed, info.name, value);
-    EXPECT_EQ(needsNewKeyframe({}, changed), info.update == Update::kKeyframe) << info.name;
+    EXPECT_EQ(actWithKeyframe({}, changed), info.update == Update::kKeyframe) << info.name;
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/evaluation/absolute_trajectory_error.h"
+#include "evaluation/absolute_trajectory_error.h"
 
 #include <gtest/gtest.h>
 

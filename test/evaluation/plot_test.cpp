@@ -3,8 +3,8 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "mivo/evaluation/evaluation_plot.h"
-#include "mivo/evaluation/plot_panel.h"
+#include "evaluation/evaluation_plot.h"
+#include "evaluation/plot_panel.h"
 
 namespace mivo {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/evaluation/relative_pose_error.h"
+#include "evaluation/relative_pose_error.h"
 
 #include <gtest/gtest.h>
 

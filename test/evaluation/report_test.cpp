@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/evaluation/report.h"
+#include "evaluation/report.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/core/association.h"
+#include "trajectory/association.h"
 
 #include <gtest/gtest.h>
 

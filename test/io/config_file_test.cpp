@@ -12,13 +12,13 @@ namespace {
 TEST(ConfigFileTest, SetsWhatIsNamedAndNothingElse) {
   const TemporaryFolder folder;
   Parameters parameters;
-  parameters.switch_level = 1;
+  parameters.alignment.switch_level = 1;
   readParameters(folder.write("c.yaml", "# comment\nmethod: ssd\nlevels: 3\nmin_depth: 0.5\n"),
                  parameters);
-  EXPECT_EQ(parameters.method, Method::kSsd);
-  EXPECT_EQ(parameters.levels, 3);
-  EXPECT_EQ(parameters.min_depth, 0.5);
-  EXPECT_EQ(parameters.switch_level, 1);
+  EXPECT_EQ(parameters.alignment.method, Method::kSsd);
+  EXPECT_EQ(parameters.alignment.levels, 3);
+  EXPECT_EQ(parameters.depth.min_depth, 0.5);
+  EXPECT_EQ(parameters.alignment.switch_level, 1);
 }
 
 TEST(ConfigFileTest, EveryParameterComesBackFromItsText) {
@@ -29,7 +29,7 @@ TEST(ConfigFileTest, EveryParameterComesBackFromItsText) {
     text += info.name + ": " + getParameter(defaults, info.name) + "\n";
   }
   Parameters parameters;
-  parameters.levels = 2;
+  parameters.alignment.levels = 2;
   readParameters(folder.write("c.yaml", text), parameters);
   for (const ParameterInfo& info : parameterTable()) {
     EXPECT_EQ(getParameter(parameters, info.name), getParameter(defaults, info.name));
@@ -39,9 +39,9 @@ TEST(ConfigFileTest, EveryParameterComesBackFromItsText) {
 TEST(ConfigFileTest, FileWithoutParametersChangesNothing) {
   const TemporaryFolder folder;
   Parameters parameters;
-  parameters.levels = 2;
+  parameters.alignment.levels = 2;
   readParameters(folder.write("c.yaml", "# only a comment\n"), parameters);
-  EXPECT_EQ(parameters.levels, 2);
+  EXPECT_EQ(parameters.alignment.levels, 2);
 }
 
 TEST(ConfigFileTest, RefusalNamesFileLineAndReasonAndChangesNothing) {
@@ -61,7 +61,7 @@ TEST(ConfigFileTest, RefusalNamesFileLineAndReasonAndChangesNothing) {
     const std::string text = errorText([&] { readParameters(path, parameters); });
     EXPECT_EQ(text.find(path + ":3: "), 0U) << text;
     EXPECT_NE(text.find(test.reason), std::string::npos) << text;
-    EXPECT_EQ(parameters.levels, Parameters().levels);
+    EXPECT_EQ(parameters.alignment.levels, Parameters().alignment.levels);
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/io/png_file.h"
+#include "io/png_file.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "mivo/io/png_file.h"
+#include "io/png_file.h"
 #include "support/error_text.h"
 #include "support/temporary_folder.h"
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/io/sequence_writer.h"
+#include "io/sequence_writer.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "mivo/io/png_file.h"
+#include "io/png_file.h"
 #include "mivo/io/sequence_reader.h"
 #include "support/error_text.h"
 #include "support/temporary_folder.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/openni2/camera_session.h"
+#include "openni2/camera_session.h"
 
 #include <gtest/gtest.h>
 

@@ -10,8 +10,8 @@
 #include <random>
 #include <utility>
 
-#include "mivo/openni2/camera_thread.h"
-#include "mivo/openni2/openni2_device.h"
+#include "openni2/camera_thread.h"
+#include "openni2/openni2_device.h"
 #include "virtual_xtion_fixture.h"
 
 namespace mivo {

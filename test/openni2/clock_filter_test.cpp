@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/openni2/clock_filter.h"
+#include "openni2/clock_filter.h"
 
 #include <gtest/gtest.h>
 

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "mivo/openni2/camera_device.h"
-#include "mivo/openni2/device_error.h"
+#include "openni2/camera_device.h"
+#include "openni2/device_error.h"
 
 namespace mivo {
 

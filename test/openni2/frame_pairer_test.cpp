@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/openni2/frame_pairer.h"
+#include "openni2/frame_pairer.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <map>
 
-#include "mivo/openni2/openni2_device.h"
+#include "openni2/openni2_device.h"
 #include "openni2/recorder.h"
 #include "virtual_xtion_fixture.h"
 

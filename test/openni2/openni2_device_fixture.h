@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "mivo/openni2/device_error.h"
-#include "mivo/openni2/openni2_device.h"
+#include "openni2/device_error.h"
+#include "openni2/openni2_device.h"
 #include "virtual_xtion_fixture.h"
 
 namespace mivo {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The camera through the real libOpenNI2, with the virtual driver in place of hardware.
 
-#include "mivo/openni2/openni2_device.h"
+#include "openni2/openni2_device.h"
 
 #include <gtest/gtest.h>
 

@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "io/png_file.h"
 #include "mivo/core/se3.h"
-#include "mivo/io/png_file.h"
 #include "mivo/io/trajectory_io.h"
 #include "programs/program_fixture.h"
 

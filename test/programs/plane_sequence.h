@@ -4,8 +4,8 @@
 #include <opencv2/core/mat.hpp>
 #include <string>
 
+#include "io/sequence_writer.h"
 #include "mivo/io/camera_file.h"
-#include "mivo/io/sequence_writer.h"
 
 namespace mivo {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/ros/bag_source.h"
+#include "ros/bag_source.h"
 
 #include <gtest/gtest.h>
 #include <rosbag/view.h>
@@ -8,10 +8,10 @@
 #include <fstream>
 #include <opencv2/imgproc.hpp>
 
-#include "mivo/ros/bag_writer.h"
-#include "mivo/ros/pose_conversion.h"
-#include "mivo/ros/stamp.h"
+#include "ros/bag_writer.h"
 #include "ros/expect_error.h"
+#include "ros/pose_conversion.h"
+#include "ros/stamp.h"
 #include "support/temporary_folder.h"
 
 namespace mivo {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/ros/bag_topics.h"
+#include "ros/bag_topics.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/ros/camera_conversion.h"
+#include "ros/camera_conversion.h"
 
 #include <gtest/gtest.h>
 

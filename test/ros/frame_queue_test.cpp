@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/ros/frame_queue.h"
+#include "ros/frame_queue.h"
 
 #include <gtest/gtest.h>
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/ros/message_frame.h"
+#include "ros/message_frame.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "mivo/ros/camera_conversion.h"
-#include "mivo/ros/status_conversion.h"
+#include "ros/camera_conversion.h"
 #include "ros/expect_error.h"
+#include "ros/status_conversion.h"
 
 namespace mivo {
 namespace {
@@ -80,10 +80,10 @@ TEST(StatusTest, CodesAreThoseOfTheMessageDefinition) {
     EXPECT_EQ(toString(state), toMessage(result).state_text);
   }
   const std::pair<TrackingReason, int> reasons[] = {
-      {TrackingReason::kNone, 0},         {TrackingReason::kInvalidFrame, 1},
-      {TrackingReason::kTooFewPoints, 2}, {TrackingReason::kNoOverlap, 3},
-      {TrackingReason::kSingular, 4},     {TrackingReason::kImplausibleMotion, 5},
-      {TrackingReason::kNotFinite, 6},    {TrackingReason::kNoInformation, 7}};
+      {TrackingReason::kNone, 0},           {TrackingReason::kInvalidFrame, 1},
+      {TrackingReason::kTooFewPoints, 2},   {TrackingReason::kNoOverlap, 3},
+      {TrackingReason::kOpenDirections, 4}, {TrackingReason::kImplausibleMotion, 5},
+      {TrackingReason::kNotFinite, 6},      {TrackingReason::kNothingInCommon, 7}};
   for (const auto& [reason, code] : reasons) {
     result.reason = reason;
     EXPECT_EQ(code, toMessage(result).reason);

@@ -11,10 +11,10 @@
 #include <chrono>
 
 #include "mivo/core/se3.h"
-#include "mivo/ros/camera_conversion.h"
-#include "mivo/ros/pose_conversion.h"
-#include "mivo/ros/stamp.h"
 #include "programs/plane_sequence.h"
+#include "ros/camera_conversion.h"
+#include "ros/pose_conversion.h"
+#include "ros/stamp.h"
 
 namespace mivo {
 namespace {

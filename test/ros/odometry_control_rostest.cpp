@@ -13,12 +13,12 @@
 #include "mivo/core/parameters.h"
 #include "mivo/core/se3.h"
 #include "mivo/io/trajectory_io.h"
-#include "mivo/ros/node_parameters.h"
-#include "mivo/ros/parameter_server.h"
-#include "mivo/ros/pose_conversion.h"
 #include "programs/plane_sequence.h"
 #include "ros/expect_error.h"
 #include "ros/node_fixture.h"
+#include "ros/node_parameters.h"
+#include "ros/parameter_server.h"
+#include "ros/pose_conversion.h"
 #include "support/temporary_folder.h"
 
 namespace mivo {
@@ -172,7 +172,7 @@ TEST_F(NodeTest, AllParametersInEffectCanBeReadBack) {
   load();
   EXPECT_EQ(8.0, ros::param::param(privateName("max_depth"), 0.0));
   const Parameters read = readParameters(ros::NodeHandle(ns_ + "/odometry"));
-  EXPECT_EQ(Method::kMi, read.method);
+  EXPECT_EQ(Method::kMi, read.alignment.method);
   for (const ParameterInfo& info : parameterTable()) {
     EXPECT_TRUE(ros::param::has(privateName(info.name))) << info.name;
   }

@@ -8,10 +8,10 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "mivo/core/se3.h"
-#include "mivo/ros/image_conversion.h"
-#include "mivo/ros/pose_conversion.h"
 #include "programs/plane_sequence.h"
+#include "ros/image_conversion.h"
 #include "ros/node_fixture.h"
+#include "ros/pose_conversion.h"
 
 namespace mivo {
 namespace {

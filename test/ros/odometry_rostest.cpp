@@ -8,9 +8,9 @@
 #include <cmath>
 
 #include "mivo/core/se3.h"
-#include "mivo/ros/pose_conversion.h"
 #include "programs/plane_sequence.h"
 #include "ros/node_fixture.h"
+#include "ros/pose_conversion.h"
 
 namespace mivo {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What needs no ROS master; reading from the server is part of odometry_rostest.
-#include "mivo/ros/parameter_server.h"
+#include "ros/parameter_server.h"
 
 #include <gtest/gtest.h>
 #include <mivo/OdometryConfig.h>
@@ -40,9 +40,9 @@ TEST(ChangedTest, TakesAllKindsOfValues) {
   request.ints.push_back(whole("mi_bins", 16));
   request.strs.push_back(word("method", "ssd"));
   const Parameters parameters = changed(Parameters(), request);
-  EXPECT_EQ(0.1 + 0.2, parameters.min_depth);  // to the bit
-  EXPECT_EQ(16, parameters.mi_bins);
-  EXPECT_EQ(Method::kSsd, parameters.method);
+  EXPECT_EQ(0.1 + 0.2, parameters.depth.min_depth);  // to the bit
+  EXPECT_EQ(16, parameters.mi.mi_bins);
+  EXPECT_EQ(Method::kSsd, parameters.alignment.method);
 }
 
 TEST(ChangedTest, RefusesTheWholeRequest) {
@@ -66,8 +66,8 @@ TEST(ChangedTest, RefusesValuesThatContradictEachOther) {
 
 TEST(ToConfigTest, ComesBackTheSame) {
   Parameters parameters;
-  parameters.min_depth = 0.1 + 0.2;
-  parameters.method = Method::kMi;
+  parameters.depth.min_depth = 0.1 + 0.2;
+  parameters.alignment.method = Method::kMi;
   const Parameters back = changed(Parameters(), toConfig(parameters));
   for (const ParameterInfo& info : parameterTable()) {
     EXPECT_EQ(getParameter(parameters, info.name), getParameter(back, info.name)) << info.name;

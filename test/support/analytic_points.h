@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
+#include "core/keyframe/reference_points.h"
 #include "mivo/core/camera.h"
-#include "mivo/core/reference_points.h"
 #include "support/analytic_image.h"
 #include "support/point_derivatives.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "mivo/core/joint_histogram.h"
+#include "core/terms/joint_histogram.h"
 
 // Mutual information written down as it is defined, slow and in double precision: the oracle of the
 // fast one. It shares no code with it but the struct IntensityRange.

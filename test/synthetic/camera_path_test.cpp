@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/synthetic/camera_path.h"
+#include "synthetic/camera_path.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 
 #include "mivo/core/error.h"
 #include "mivo/core/se3.h"
-#include "mivo/synthetic/ray_caster.h"
+#include "synthetic/ray_caster.h"
 #include "synthetic/shared_scene.h"
 
 namespace mivo {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/synthetic/depth_sensor.h"
+#include "synthetic/depth_sensor.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <set>
 
 #include "mivo/core/error.h"
-#include "mivo/synthetic/sequence_generator.h"
+#include "synthetic/sequence_generator.h"
 
 namespace mivo {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/synthetic/exposure_control.h"
+#include "synthetic/exposure_control.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/synthetic/imager.h"
+#include "synthetic/imager.h"
 
 #include <gtest/gtest.h>
 

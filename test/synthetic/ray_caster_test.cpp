@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/synthetic/ray_caster.h"
+#include "synthetic/ray_caster.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "mivo/synthetic/pixel_noise.h"
+#include "synthetic/pixel_noise.h"
 
 namespace mivo {
 namespace {

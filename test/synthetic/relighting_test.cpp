@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/synthetic/relighting.h"
+#include "synthetic/relighting.h"
 
 #include <gtest/gtest.h>
 

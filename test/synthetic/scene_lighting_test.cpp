@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/synthetic/scene_lighting.h"
+#include "synthetic/scene_lighting.h"
 
 #include <gtest/gtest.h>
 
 #include "mivo/core/error.h"
-#include "mivo/synthetic/renderer.h"
-#include "mivo/synthetic/sequence_generator.h"
+#include "synthetic/renderer.h"
+#include "synthetic/sequence_generator.h"
 #include "synthetic/shared_scene.h"
 
 namespace mivo {

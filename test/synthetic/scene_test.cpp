@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/synthetic/scene.h"
+#include "synthetic/scene.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/synthetic/sequence_generator.h"
+#include "synthetic/sequence_generator.h"
 
 #include <gtest/gtest.h>
 

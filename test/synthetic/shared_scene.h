@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "mivo/synthetic/scene.h"
+#include "synthetic/scene.h"
 
 namespace mivo {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/synthetic/spectral_noise.h"
+#include "synthetic/spectral_noise.h"
 
 #include <gtest/gtest.h>
 

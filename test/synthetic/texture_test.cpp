@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "mivo/synthetic/texture.h"
+#include "synthetic/texture.h"
 
 #include <gtest/gtest.h>
 
 #include <opencv2/core.hpp>
 
 #include "mivo/core/error.h"
-#include "mivo/synthetic/pixel_noise.h"
-#include "mivo/synthetic/texture_patterns.h"
+#include "synthetic/pixel_noise.h"
+#include "synthetic/texture_patterns.h"
 
 namespace mivo {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "mivo/core/se3.h"
-#include "mivo/synthetic/sequence_generator.h"
+#include "synthetic/sequence_generator.h"
 
 // The images, the depth and the poses of a sequence must agree: a frame warped into another one by
 // the true pose and depth leaves nothing but noise, and no other pose fits better.

@@ -33,7 +33,7 @@ class Odometry {
   Odometry& operator=(const Odometry&) = delete;
 
   /// Tracks one frame from the predicted pose. Stamps must grow; a frame that does not fit
-  /// (findFault) or is not newer changes nothing and is reported as kInvalidFrame.
+  /// (findFault) or is not newer changes nothing and is refused, see TrackingResult::isRefused().
   const TrackingResult& process(const Frame& frame);
 
   /// The same, from the given start instead of the predicted pose.

@@ -4,27 +4,43 @@
 #include <string>
 #include <vector>
 
-namespace mivo {
+#include "mivo/core/parameter_choices.h"
 
-enum class Method { kSsd, kMi, kHybrid };
-enum class PhotometricModel { kNone, kLcn };
-enum class MiHessian { kFull, kReference };
-enum class RobustWeight { kNone, kHuber, kTukey, kStudentT };
-enum class KeyframePolicy { kAutomatic, kFirst };
-enum class Prediction { kConstantVelocity, kConstantPose };
+namespace mivo {
 
 /// When a changed parameter acts: with the next frame, or with the next keyframe (made at once).
 enum class Update { kLive, kKeyframe };
 
-/// Every constant of the method, with the defaults of parameters.def. Units and ranges stand there.
-struct Parameters {
-#define MIVO_GROUP(title)
+// One struct for each group of parameters.def, with the defaults of its rows: AlignmentParameters,
+// DepthParameters, ... Units, ranges and texts stand there. A stage of the tracker asks for the
+// groups that it needs.
+#define MIVO_GROUP(Struct, member, title) struct Struct {
+#define MIVO_GROUP_END(Struct, member) \
+  }                                    \
+  ;
 #define MIVO_INT(name, value, minimum, maximum, unit, update, text) int name = value;
 #define MIVO_DOUBLE(name, value, minimum, maximum, unit, update, text) double name = value;
 #define MIVO_BOOL(name, value, update, text) bool name = value;
 #define MIVO_ENUM(Type, name, value, words, update, text) Type name = Type::value;
 #include "mivo/core/parameters.def"
 #undef MIVO_GROUP
+#undef MIVO_GROUP_END
+#undef MIVO_INT
+#undef MIVO_DOUBLE
+#undef MIVO_BOOL
+#undef MIVO_ENUM
+
+/// The tunable constants of the method, by group.
+struct Parameters {
+#define MIVO_GROUP(Struct, member, title) Struct member;
+#define MIVO_GROUP_END(Struct, member)
+#define MIVO_INT(name, value, minimum, maximum, unit, update, text)
+#define MIVO_DOUBLE(name, value, minimum, maximum, unit, update, text)
+#define MIVO_BOOL(name, value, update, text)
+#define MIVO_ENUM(Type, name, value, words, update, text)
+#include "mivo/core/parameters.def"
+#undef MIVO_GROUP
+#undef MIVO_GROUP_END
 #undef MIVO_INT
 #undef MIVO_DOUBLE
 #undef MIVO_BOOL
@@ -59,7 +75,7 @@ void setParameter(Parameters& parameters, const std::string& name, const std::st
 /// The value as text that setParameter reads back exactly. Throws Error for an unknown name.
 std::string getParameter(const Parameters& parameters, const std::string& name);
 
-/// Whether going from one set to the other needs a new keyframe.
-bool needsNewKeyframe(const Parameters& before, const Parameters& after);
+/// Whether a parameter differs that acts with a keyframe: one made with the other set is of no use.
+bool actWithKeyframe(const Parameters& before, const Parameters& after);
 
 }  // namespace mivo

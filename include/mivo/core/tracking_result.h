@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <string>
 
 #include "mivo/core/se3.h"
 
@@ -21,14 +22,20 @@ enum class TrackingState {
 /// Why the state is what it is.
 enum class TrackingReason {
   kNone,               ///< tracking, nothing to say
-  kInvalidFrame,       ///< size, type or stamp of the frame does not fit
+  kInvalidFrame,       ///< refused: size, type or stamp of the frame does not fit
+  kStaleStamp,         ///< refused: the stamp is not newer than that of the frame before
   kTooFewPoints,       ///< too little depth or texture for a keyframe, or to track
   kNoOverlap,          ///< too few of the keyframe's points are in view
-  kNoInformation,      ///< the images have nothing in common: dark, covered, or another place
-  kSingular,           ///< the images do not fix all six degrees of freedom
+  kNothingInCommon,    ///< the images have nothing in common: dark, covered, or another place
+  kOpenDirections,     ///< image and depth leave directions of motion open: see open_directions
   kImplausibleMotion,  ///< faster than the limits allow
   kNotFinite           ///< the alignment diverged
 };
+
+/// Directions of motion in the axes of the camera, in the order of Vector6: sideways (x), up and
+/// down (y), forward (z), turning about the same three axes. True: neither image nor depth fixes
+/// it.
+using Directions = std::array<bool, 6>;
 
 const char* toString(TrackingState state);    ///< initialising, tracking, degraded, lost
 const char* toString(TrackingReason reason);  ///< a few words, e.g. "too few points"
@@ -59,6 +66,20 @@ struct TrackingResult {
   double stamp = 0.0;  ///< s, of the frame
   TrackingState state = TrackingState::kInitialising;
   TrackingReason reason = TrackingReason::kNone;
+
+  /// Directions that the frame does not fix, with reason kOpenDirections: there the pose is what
+  /// the motion so far expects, and the covariance grows until something is seen again.
+  Directions open_directions{};
+
+  /// The frame was not looked at, see findFault(): nothing here is of it, the pose is the last one.
+  bool isRefused() const {
+    return reason == TrackingReason::kInvalidFrame || reason == TrackingReason::kStaleStamp;
+  }
+
+  /// The pose was measured with this frame.
+  bool isMeasured() const {
+    return !isRefused() && (state == TrackingState::kTracking || state == TrackingState::kDegraded);
+  }
 
   /// Pose of the colour optical frame in the odometry's world (the first camera pose unless set
   /// otherwise). When lost: the best guess.
@@ -97,5 +118,9 @@ struct TrackingResult {
   std::array<LevelRecord, kMaxLevels> levels{};
   StageTimes milliseconds;
 };
+
+/// The reason in a few words, with the directions in those of the camera, e.g. "no view of motion
+/// sideways, turning about the vertical axis".
+std::string describeReason(const TrackingResult& result);
 
 }  // namespace mivo

@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "mivo/core/stamped_pose.h"
 #include "mivo/io/output_file.h"
+#include "mivo/trajectory/stamped_pose.h"
 
 // Trajectories as text: lines `stamp tx ty tz qx qy qz qw`, the pose of the colour optical frame in
 // the world in metres, `#` for comments.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <atomic>
 
-#include "kernels/scalar.h"
-#include "kernels/vector.h"
+#include "core/kernels/scalar.h"
+#include "core/kernels/vector.h"
 #include "mivo/core/error.h"
 
 namespace mivo {
@@ -31,7 +31,7 @@ const Kernels& scalar() {
       reference::binPositions,
       reference::jointHistogram,
       reference::logarithms,
-      reference::informationDerivatives,
+      reference::miDerivatives,
       reference::reduce,
       reference::smooth,
       reference::contrastMap,

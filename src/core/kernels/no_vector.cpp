@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "kernels/vector.h"
+#include "core/kernels/vector.h"
 
 // In place of vector.cpp where mivo is built without Highway.
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "mivo/core/kernels/kernels.h"
+#include "core/kernels/kernels.h"
 
 // The readable reference of every kernel. The vector kernels finish the last few points of an array
 // with it.
@@ -43,11 +43,10 @@ void binPositions(const float* value, std::size_t n, float low, float scale, flo
 void jointHistogram(const BinsView& reference, const BinsView& live, const float* visible,
                     std::size_t n, int side, float* scratch, double* sums);
 void logarithms(const double* value, std::size_t n, double* logarithm);
-void informationDerivatives(const BinsView& reference, const BinsView& live, const float* active,
-                            const float* jacobian_rows, const float* const jacobian[6],
-                            const float* const second_derivative[21], std::size_t n, int side,
-                            float bin_scale, const float* log_ratio, float* rows,
-                            InformationSums& sums);
+void miDerivatives(const BinsView& reference, const BinsView& live, const float* active,
+                   const float* jacobian_rows, const float* const jacobian[6],
+                   const float* const second_derivative[21], std::size_t n, int side,
+                   float bin_scale, const float* log_ratio, float* rows, MiSums& sums);
 
 void keyframePoints(const WarpParameters& camera, const PixelsView& pixels, std::size_t n,
                     const DerivedPoints& points, double pixel_motion[21]);

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernels/scalar.h"
+#include "core/kernels/scalar.h"
 
 namespace mivo {
 namespace kernels {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "kernels/scalar.h"
+#include "core/kernels/scalar.h"
 
 namespace mivo {
 namespace kernels {
@@ -17,7 +17,7 @@ inline Number constant(float value) {
 
 #define MIVO_FORMULAS reference
 #define MIVO_INLINE inline
-#include "kernels/point_formulas-inl.h"
+#include "core/kernels/point_formulas-inl.h"
 
 namespace mivo {
 namespace kernels {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "kernels/scalar.h"
+#include "core/kernels/scalar.h"
 
 namespace mivo {
 namespace kernels {

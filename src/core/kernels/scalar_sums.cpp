@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "kernels/scalar.h"
-#include "mivo/core/robust_weight.h"
+#include "core/kernels/scalar.h"
+#include "core/terms/robust_weight.h"
 
 namespace mivo {
 namespace kernels {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "kernels/vector.h"
+#include "core/kernels/vector.h"
 
 #include <hwy/aligned_allocator.h>
 
@@ -8,15 +8,15 @@
 #include <cstring>
 #include <type_traits>
 
-#include "kernels/scalar.h"
-#include "mivo/core/robust_weight.h"
+#include "core/kernels/scalar.h"
+#include "core/terms/robust_weight.h"
 
 // One source for all instruction sets: Highway includes this file once for each of them, with
 // HWY_NAMESPACE, the widths and the instructions set accordingly. So do the parts below, which
 // therefore have no include guards.
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "kernels/vector.cpp"
+#define HWY_TARGET_INCLUDE "core/kernels/vector.cpp"
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
 // Highway's logarithms.
@@ -24,19 +24,19 @@
 
 // The fallback without vectors is our own reference.
 #if HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
-#include "kernels/vector_points-inl.h"
+#include "core/kernels/vector_points-inl.h"
 //
-#include "kernels/vector_sums-inl.h"
+#include "core/kernels/vector_sums-inl.h"
 //
-#include "kernels/vector_scores-inl.h"
+#include "core/kernels/vector_scores-inl.h"
 //
-#include "kernels/vector_information-inl.h"
+#include "core/kernels/vector_mi-inl.h"
 //
-#include "kernels/vector_images-inl.h"
+#include "core/kernels/vector_images-inl.h"
 //
-#include "kernels/vector_keyframe-inl.h"
+#include "core/kernels/vector_keyframe-inl.h"
 //
-#include "kernels/vector_depth-inl.h"
+#include "core/kernels/vector_depth-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace mivo {
@@ -58,7 +58,7 @@ const Kernels& table() {
       binPositions,
       jointHistogram,
       logarithms,
-      informationDerivatives,
+      miDerivatives,
       reduce,
       smooth,
       contrastMap,

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "mivo/core/kernels/kernels.h"
+#include "core/kernels/kernels.h"
 
 namespace mivo {
 namespace kernels {

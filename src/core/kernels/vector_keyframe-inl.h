@@ -33,7 +33,7 @@ HWY_INLINE Number constant(float value) {
 
 #define MIVO_FORMULAS HWY_NAMESPACE
 #define MIVO_INLINE HWY_INLINE
-#include "kernels/point_formulas-inl.h"
+#include "core/kernels/point_formulas-inl.h"
 #undef MIVO_FORMULAS
 #undef MIVO_INLINE
 

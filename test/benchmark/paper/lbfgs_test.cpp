@@ -51,7 +51,7 @@ class LbfgsTest : public ::testing::TestWithParam<GradientSource> {};
 TEST_P(LbfgsTest, FindsTheMinimumOfASmoothCost) {
   PointDistance term(pose(1.0));
   Parameters parameters;
-  parameters.min_cost_change = 0.0;
+  parameters.alignment.min_cost_change = 0.0;
   const LbfgsResult result = minimiseByLbfgs(term, pose(-0.5), 2.0, GetParam(), parameters);
   EXPECT_TRUE(result.T_live_ref.isApprox(pose(1.0), 1e-5)) << result.cost;
   EXPECT_LT(result.cost, 1e-9);
@@ -66,7 +66,7 @@ INSTANTIATE_TEST_SUITE_P(Gradients, LbfgsTest,
 TEST(Lbfgs, TakesTheSameStepsWithEitherGradient) {
   PointDistance term(pose(1.0));
   Parameters parameters;
-  parameters.min_cost_change = 1e-6;
+  parameters.alignment.min_cost_change = 1e-6;
   const LbfgsResult exact =
       minimiseByLbfgs(term, pose(-0.5), 2.0, GradientSource::kTerm, parameters);
   const LbfgsResult differences =

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
-#include "mivo/core/kernels/kernels.h"
+#include "core/kernels/kernels.h"
 #include "support/error_text.h"
 
 namespace mivo {

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "mivo/core/kernels/kernels.h"
+#include "core/kernels/kernels.h"
 
 // Random and awkward input for the kernels, and the lengths and offsets at which vector code goes
 // wrong.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The camera's publisher goes, with its nodelet, while others subscribe to it.
-#include "mivo/ros/camera_publisher.h"
+#include "ros/camera_publisher.h"
 
 #include <gtest/gtest.h>
 #include <ros/ros.h>

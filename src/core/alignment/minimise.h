@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "core/terms/cost_term.h"
+#include "mivo/core/parameters.h"
+
+namespace mivo {
+
+/// How the minimiser went on one level.
+struct Minimum {
+  Eigen::Isometry3d T_live_ref;
+  double cost = 0.0;                      ///< nats, of all terms
+  Matrix6 hessian = Matrix6::Identity();  ///< nats, guarded, of the last model
+  double condition = 0.0;                 ///< weakest over strongest curvature, before the guard
+  int iterations = 0;                     ///< steps taken
+  int evaluations = 0;                    ///< of the cost
+  double line_search_milliseconds = 0.0;  ///< processor time in evaluations after the first
+};
+
+/// Minimises the sum of the terms over the pose: Newton steps with the definiteness guard, each
+/// tried in full and then halved until it meets Armijo's condition (section III-B), composed
+/// inversely, T <- T o retract(step)^-1 (Eq. 5). Stops on a small step or gain, or when no step
+/// helps. The terms are left evaluated at the pose that is returned, or an untried step before it.
+/// @param length median depth, m. @param pixel_motion see ReferencePoints. @param tolerance is
+/// multiplied with the step and the gain that end it. @param trusted_step_pixels where the cost is
+/// convex, a shorter step is taken untried and ends it.
+Minimum minimise(const std::vector<CostTerm*>& terms, const Eigen::Isometry3d& T_live_ref,
+                 double length, const Matrix6& pixel_motion, const Parameters& parameters,
+                 double tolerance = 1.0, double trusted_step_pixels = 0.0);
+
+}  // namespace mivo

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/alignment/pose_covariance.h"
+
+namespace mivo {
+namespace {
+
+constexpr double kGuessTranslation = 1.0;
+constexpr double kGuessRotation = 1.0;
+constexpr double kFloorTranslation = 1e-5;
+constexpr double kFloorRotation = 1e-5;
+
+}  // namespace
+
+Matrix6 diagonalCovariance(double translation, double rotation) {
+  Vector6 variance;
+  variance.head<3>().setConstant(translation * translation);
+  variance.tail<3>().setConstant(rotation * rotation);
+  return variance.asDiagonal();
+}
+
+Matrix6 floorCovariance() {
+  return diagonalCovariance(kFloorTranslation, kFloorRotation);
+}
+
+Matrix6 guessCovariance() {
+  return diagonalCovariance(kGuessTranslation, kGuessRotation);
+}
+
+Matrix6 liveCovariance(const Eigen::Isometry3d& T_live_ref, const Matrix6& of_increment,
+                       const Matrix6& of_reference) {
+  const Matrix6 Ad = adjoint(T_live_ref);
+  const Matrix6 covariance = Ad * (of_increment + of_reference) * Ad.transpose();
+  return 0.5 * (covariance + covariance.transpose()) + floorCovariance();
+}
+
+}  // namespace mivo

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+#include <vector>
+
+#include "core/images/image_pyramid.h"
+#include "core/kernels/kernels.h"
+
+namespace mivo {
+
+/// Local mean and standard deviation of one level, for local contrast normalisation
+/// L = (I - mean) / (deviation + constant): what a lamp or an exposure does to a neighbourhood, a
+/// gain and an offset, drops out.
+struct ContrastMap {
+  /// CV_32FC2 (mean, deviation) over 5 x 5 pixels of the image two levels up: pixel (u, v) lies at
+  /// (u, v) / 4. The last column and the last row are there twice, so that every pixel has a
+  /// neighbour to the right and below.
+  cv::Mat pairs;
+  float constant = 1.0F;  ///< grey levels; keeps flat, noisy places small
+};
+
+/// As the kernels see it.
+kernels::ContrastView view(const ContrastMap& map);
+
+/// The contrast maps of a frame, level by level.
+class ContrastMaps {
+ public:
+  /// The pyramid has two levels more than are to be normalised; buffers are reused.
+  void build(const ImagePyramid& pyramid, int num_levels);
+
+  const ContrastMap& level(int level) const { return maps_[static_cast<std::size_t>(level)]; }
+
+  /// Standard deviation of the noise of a pixel of level 0, grey levels.
+  double noise() const { return noise_; }
+
+  /// Root mean square of the local deviation on level 1, grey levels: how much there is to see.
+  double contrast() const { return contrast_; }
+
+ private:
+  std::vector<ContrastMap> maps_;
+  std::vector<float> scratch_;
+  double noise_ = 0.0;
+  double contrast_ = 0.0;
+};
+
+/// Normalised intensity at a whole pixel of a level.
+float normalisedIntensity(const cv::Mat& image, const ContrastMap& map, int x, int y);
+
+/// Local deviation plus constant at a whole pixel of a level: grey levels per unit of L.
+float localContrast(const ContrastMap& map, int x, int y);
+
+/// A whole level, CV_32FC1 or CV_8UC1, normalised and scaled to grey levels, CV_32FC1 0..255, 128
+/// for the local mean.
+void normaliseImage(const cv::Mat& image, const ContrastMap& map, cv::Mat& normalised);
+
+}  // namespace mivo

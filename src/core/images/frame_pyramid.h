@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <opencv2/core/mat.hpp>
+#include <vector>
+
+#include "core/images/contrast_maps.h"
+#include "core/images/image_pyramid.h"
+#include "core/terms/joint_histogram.h"
+#include "mivo/core/frame.h"
+#include "mivo/core/parameters.h"
+
+namespace mivo {
+
+/// Everything the alignment needs of a frame, whether it is the live one or becomes the keyframe:
+/// grey levels, local contrast and normalised images as the photometric model asks for, and depth.
+class FramePyramid {
+ public:
+  /// Rebuilds from a frame that fits the camera; buffers are reused. The frame's depth is referred
+  /// to, not copied.
+  void build(const Frame& frame, const Parameters& parameters);
+
+  int numLevels() const { return num_levels_; }
+  bool isNormalised() const { return is_normalised_; }
+
+  /// The frame's image as it came, CV_8UC1.
+  const cv::Mat& image() const { return images_.level(0); }
+  /// What is compared by SSD: CV_8UC1 on level 0, smoothed if isNormalised(), CV_32FC1 0..255
+  /// above.
+  const cv::Mat& grey(int level) const {
+    return level == 0 && is_normalised_ ? smoothed_ : images_.level(level);
+  }
+  const ContrastMaps& contrast() const { return contrast_; }  ///< if isNormalised()
+
+  /// What mutual information compares on a level that uses it: CV_32FC1 or CV_8UC1, 0..255.
+  const cv::Mat& miImage(int level) const;
+  /// The grey levels of it that fill the bins.
+  const IntensityRange& miRange(int level) const {
+    return ranges_[static_cast<std::size_t>(level)];
+  }
+
+  const Frame& frame() const { return frame_; }
+
+  /// Standard deviation of the grey levels of the coarsest level, where noise is averaged out: how
+  /// much there is to see.
+  double contrastInView() const;
+
+ private:
+  void smooth(double saturation);
+
+  Frame frame_;
+  ImagePyramid images_;
+  cv::Mat smoothed_;
+  std::vector<float> scratch_;
+  ContrastMaps contrast_;
+  std::vector<cv::Mat> normalised_;
+  std::vector<IntensityRange> ranges_;
+  int num_levels_ = 0;
+  bool is_normalised_ = false;
+};
+
+/// Whether a level is aligned by mutual information, rather than by SSD (Algorithm 1).
+bool usesMutualInformation(const Parameters& parameters, int level);
+
+}  // namespace mivo

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "core/alignment/tracker.h"
+#include "core/keyframe/keyframe.h"
+#include "mivo/core/parameters.h"
+
+namespace mivo {
+
+/// How good the alignment was right after the keyframe was made: what later frames are held
+/// against.
+struct KeyframeQuality {
+  double mutual_information = 0.0;  ///< nats; 0: not known
+  double residual_scale = 0.0;      ///< grey levels; 0: not known
+  double correlation = 0.0;         ///< 0: not known
+};
+
+/// Whether the frame that was just aligned should become the next keyframe: by motion, overlap or
+/// cost (see the keyframe_* parameters).
+bool needsNewKeyframe(const Alignment& alignment, const Keyframe& keyframe,
+                      const KeyframeQuality& first, const Parameters& parameters);
+
+}  // namespace mivo

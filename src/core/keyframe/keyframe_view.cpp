@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/keyframe/keyframe_view.h"
+
+#include "core/geometry/warp.h"
+
+namespace mivo {
+namespace {
+
+constexpr int kStride = 2;
+
+std::vector<Pixel> pixelsWithDepth(const cv::Mat& depth) {
+  std::vector<Pixel> pixels;
+  for (int y = 0; y < depth.rows; y += kStride) {
+    const auto* row = depth.ptr<float>(y);
+    for (int x = 0; x < depth.cols; x += kStride) {
+      if (row[x] > 0.0F) pixels.push_back({x, y});
+    }
+  }
+  return pixels;
+}
+
+ReferencePoints pointsAt(const std::vector<Pixel>& pixels, const Keyframe& keyframe,
+                         const Camera& camera) {
+  ReferencePoints points;
+  points.pixels = pixels;
+  for (const Pixel& pixel : pixels) {
+    const double z = static_cast<double>(keyframe.depth().at<float>(pixel.y, pixel.x));
+    const Eigen::Vector3d point = z * camera.ray({pixel.x, pixel.y});
+    points.x.push_back(static_cast<float>(point.x()));
+    points.y.push_back(static_cast<float>(point.y()));
+    points.z.push_back(static_cast<float>(point.z()));
+    points.intensity.push_back(
+        static_cast<float>(keyframe.image().at<unsigned char>(pixel.y, pixel.x)));
+  }
+  return points;
+}
+
+}  // namespace
+
+std::vector<CloudPoint> makeCloud(const Keyframe& keyframe, const Camera& camera) {
+  const ReferencePoints points = pointsAt(pixelsWithDepth(keyframe.depth()), keyframe, camera);
+  std::vector<CloudPoint> cloud;
+  cloud.reserve(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    cloud.push_back({points.x[i], points.y[i], points.z[i], points.intensity[i]});
+  }
+  return cloud;
+}
+
+cv::Mat makeResidualImage(const Keyframe& keyframe, const cv::Mat& live, const Camera& camera,
+                          const Eigen::Isometry3d& T_live_ref) {
+  const ReferencePoints points = pointsAt(pixelsWithDepth(keyframe.depth()), keyframe, camera);
+  LiveSamples samples;
+  Warp(camera, RowMotion{}, 1).sample(points, points.size(), T_live_ref, live, samples);
+  cv::Mat result((camera.height + 1) / kStride, (camera.width + 1) / kStride, CV_8UC1,
+                 cv::Scalar(128));
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (samples.visible[i] == 0.0F) continue;
+    const Pixel& pixel = points.pixels[i];
+    result.at<unsigned char>(pixel.y / kStride, pixel.x / kStride) =
+        cv::saturate_cast<unsigned char>(128.0F + 0.5F * (samples.value[i] - points.intensity[i]));
+  }
+  return result;
+}
+
+}  // namespace mivo

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstddef>
+#include <vector>
+
+#include "core/keyframe/keyframe_store.h"
+
+namespace mivo {
+
+/// One way to find a lost camera again: a keyframe of the store, and where to start.
+struct RecoveryAttempt {
+  std::size_t keyframe;
+  Eigen::Isometry3d T_odom_camera;
+};
+
+/// What to try with a frame that the usual start does not align: from the last good pose, from the
+/// motion before the loss continued, and from half of it, against the current keyframe; and from
+/// their own poses against two of the older keyframes, others with every lost frame.
+/// @param T_odom_last last good pose. @param T_odom_predicted where its motion would have led.
+/// @param lost_in_a_row frames lost before this one.
+std::vector<RecoveryAttempt> recoveryAttempts(const KeyframeStore& keyframes,
+                                              const Eigen::Isometry3d& T_odom_last,
+                                              const Eigen::Isometry3d& T_odom_predicted,
+                                              int lost_in_a_row);
+
+}  // namespace mivo

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "core/geometry/row_motion.h"
+#include "core/keyframe/reference_points.h"
+#include "core/terms/robust_sum.h"
+
+namespace mivo {
+
+/// What one frame says about the read-out time, as a share of the frame period: by how much to
+/// change it, and how sure that is (inverse variance, as far as the residuals know).
+struct ReadoutMeasurement {
+  double correction = 0.0;
+  double information = 0.0;
+};
+
+/// Measures from the residuals at the end of a level: the read-out is a seventh unknown beside the
+/// pose, which is eliminated. @param live_rows row of each point in the live image, pixels;
+/// @param height of the level, @param scale of the residuals.
+ReadoutMeasurement measureReadout(const ReferencePoints& points, const Residuals& residuals,
+                                  const std::vector<float>& live_rows, double height, double scale,
+                                  const RowVelocities& velocities);
+
+/// Estimates the read-out time while tracking. It stays zero until two keyframes in a row ask for a
+/// rolling shutter by more than chance does on a global one, and then follows what they say.
+class ReadoutEstimator {
+ public:
+  /// Adds what a frame says, held against a keyframe whose velocity was known.
+  void add(const ReadoutMeasurement& measurement);
+
+  /// Ends the interval of a keyframe: the only time at which the estimate changes, for the points
+  /// of a keyframe are corrected for it when it is made.
+  void endKeyframe();
+
+  /// Read-out time as a share of the frame period, 0..1; 0: a global shutter.
+  double readout() const { return readout_; }
+
+ private:
+  void decide(double correction);
+
+  double weighted_sum_ = 0.0;
+  double information_ = 0.0;
+  double last_correction_ = 0.0;
+  bool is_on_ = false;
+  int updates_ = 0;
+  int keyframes_on_ = 0;
+  double caution_ = 1.0;  // factor on what it takes to switch on
+  double estimate_ = 0.0;
+  double readout_ = 0.0;
+};
+
+}  // namespace mivo

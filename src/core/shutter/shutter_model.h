@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "core/alignment/tracker.h"
+#include "core/geometry/row_motion.h"
+#include "core/shutter/depth_offset_estimator.h"
+#include "core/shutter/readout_estimator.h"
+#include "mivo/core/parameters.h"
+
+namespace mivo {
+
+/// When the camera reads its rows: as the parameters say, or as the frames so far have shown. The
+/// estimates only change when a keyframe is made, for its points are corrected for them then.
+class ShutterModel {
+ public:
+  /// Adds what a frame says, held against a keyframe whose velocity was known.
+  void add(const Alignment& alignment);
+
+  /// Before a keyframe is made. @param period s between two frames; 0: not known yet.
+  void endKeyframe(const Parameters& parameters, double period);
+
+  /// In frame periods. @param period see endKeyframe().
+  ShutterTimes times(const Parameters& parameters, double period) const;
+
+ private:
+  ReadoutEstimator readout_;
+  DepthOffsetEstimator depth_offset_;
+  double given_depth_offset_ = 0.0;  // s, what depth_offset_ is beside
+};
+
+}  // namespace mivo

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "mivo/core/parameter_choices.h"
+
+namespace mivo {
+
+// 95 % efficiency for Gaussian residuals (Huber; Beaton and Tukey).
+constexpr float kHuber = 1.345F;
+constexpr float kTukey = 4.685F;
+// Degrees of freedom of Student's t.
+constexpr float kFreedom = 5.0F;
+
+/// Loss rho(u) of a residual u in units of its scale, convex near zero, its weight rho'(u) / u, and
+/// its curvature rho''(u), negative far out where the loss levels off. Shapes and constants stand
+/// at the parameter robust_weight.
+struct RobustLoss {
+  float loss;
+  float weight;
+  float curvature;
+};
+RobustLoss robustLoss(RobustWeight kind, float u);
+
+/// Mean curvature of the loss as a share of the mean weight, for Gaussian residuals. 1 without
+/// robust weights.
+double gaussianCurvature(RobustWeight kind);
+
+}  // namespace mivo

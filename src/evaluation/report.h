@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "evaluation/absolute_trajectory_error.h"
+#include "evaluation/relative_pose_error.h"
+#include "evaluation/statistics.h"
+
+namespace mivo {
+
+struct EvaluationOptions {
+  double delta = 1.0;                 ///< s, over which drift is measured
+  double max_time_difference = 0.02;  ///< s, between a pose and the true one it is compared with
+};
+
+/// Everything that is known about an estimate when the truth is.
+struct Evaluation {
+  EvaluationOptions options;
+  std::size_t frames = 0;                ///< poses of the estimate
+  double coverage = 0.0;                 ///< duration of the estimate / duration of the truth
+  std::vector<RelativePoseError> drift;  ///< over options.delta
+  std::vector<RelativePoseError> frame_to_frame;  ///< from each pose to the next
+  AbsoluteTrajectoryError absolute;
+};
+
+/// Throws Error when the trajectories have too few poses in common, or none is `delta` apart.
+Evaluation evaluate(const Trajectory& truth, const Trajectory& estimate,
+                    const EvaluationOptions& options);
+
+/// One number of a report; names end with the unit.
+struct Figure {
+  std::string name;
+  double value;
+};
+
+/// The figures in the order they are printed in.
+std::vector<Figure> figuresOf(const Evaluation& evaluation);
+
+/// Lines `name: value`.
+std::string toText(const std::vector<Figure>& figures);
+
+/// One JSON object of numbers.
+std::string toJson(const std::vector<Figure>& figures);
+
+}  // namespace mivo

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "openni2/camera_device.h"
+#include "openni2/clock_filter.h"
+#include "openni2/device_error.h"
+#include "openni2/rate_monitor.h"
+
+namespace mivo {
+
+enum class CameraState {
+  kConnecting,  ///< about to open the device for the first time
+  kWaiting,     ///< no device: tries again after a pause that doubles each time
+  kIdle,        ///< device open, nobody wants images
+  kStreaming,   ///< images come
+  kEnded        ///< the recording has been played
+};
+
+const char* toString(CameraState state);
+
+struct StreamStatistics {
+  double rate = 0.0;  ///< Hz, over the last seconds; 0: not known yet
+  std::int64_t frames = 0;
+  std::int64_t dropped = 0;
+};
+
+/// A copy of all that can be said about the camera.
+struct CameraStatus {
+  CameraState state = CameraState::kConnecting;
+  std::optional<DeviceFault> fault;  ///< why it waits
+  std::string message;               ///< one line for the user
+  bool slow = false;                 ///< a stream delivers markedly less than it should
+  int failures = 0;                  ///< attempts in a row that failed
+  int reconnections = 0;             ///< devices opened after the first
+  double clock_skew = 0.0;           ///< device clock relative to the host's, minus 1
+  std::array<StreamStatistics, kStreamKinds> streams;
+  DeviceDescription device;  ///< of the last device that was open
+  CameraSettings settings;   ///< as read back from the camera
+};
+
+enum class Severity { kInfo, kWarning, kError };
+
+/// Hears what the session does, in the thread that calls CameraSession::step.
+class CameraListener {
+ public:
+  virtual ~CameraListener() = default;
+  /// @param stamp host time at which the image was taken, ns
+  virtual void onImage(const ImageView& image, std::int64_t stamp) = 0;
+  /// Something changed that the user should read: one line, once per change.
+  virtual void onMessage(Severity severity, const std::string& line) = 0;
+  /// A device was opened.
+  virtual void onDevice(const DeviceDescription& device) = 0;
+  /// The camera's true settings, after they were applied.
+  virtual void onSettings(const CameraSettings& settings) = 0;
+};
+
+struct StreamDemand {
+  bool color = false;
+  bool depth = false;
+  bool any() const { return color || depth; }
+  bool wants(StreamKind kind) const { return kind == StreamKind::kColor ? color : depth; }
+};
+
+struct SessionTimes {
+  std::chrono::milliseconds first_pause{500};     ///< after the first failure
+  std::chrono::milliseconds longest_pause{8000};  ///< the pause doubles up to this
+  std::chrono::milliseconds first_image{5000};    ///< a stream that starts must deliver within this
+  std::chrono::milliseconds next_image{2000};     ///< a running stream must deliver within this
+  std::chrono::milliseconds read{50};             ///< longest wait in one step
+  std::chrono::milliseconds check{500};           ///< how often an idle device is looked after
+  /// Images of a camera that are not handed on after a stream starts: its exposure settles,
+  /// settings take effect, and the clocks' difference becomes known. Recordings lose none.
+  int warm_up_images = 10;
+  /// So many more at most while the clocks' difference is still falling: the machine is busy.
+  int most_unsettled_images = 120;
+};
+
+/// The life of a camera: opens it, keeps the wanted streams running, stamps images, notices loss
+/// and tries again with back-off. A state machine without a thread and without a clock of its own.
+class CameraSession {
+ public:
+  using Time = std::chrono::steady_clock::time_point;
+  /// Host time for stamps, ns since the epoch.
+  using HostClock = std::function<std::int64_t()>;
+
+  CameraSession(DeviceRequest request, SessionTimes times, DeviceFactory factory,
+                HostClock host_clock, CameraListener& listener);
+
+  void setDemand(const StreamDemand& demand);
+  void setSettings(const CameraSettings& settings);
+
+  /// Does what is due, reading at most one image. Returns how long nothing will be due (zero: call
+  /// again at once).
+  std::chrono::milliseconds step(Time now);
+
+  CameraStatus status() const;
+
+ private:
+  struct Stream {
+    bool running = false;
+    bool delivered = false;  ///< since it was started
+    Time last_image;         ///< or the start
+    int warm_up = 0;         ///< images still to be held back
+    int unsettled = 0;       ///< and so many more until the clock filter has settled
+    RateMonitor monitor;
+  };
+
+  std::chrono::milliseconds connect(Time now);
+  void opened();
+  void failed(const DeviceError& error, Time now);
+  void recordingEnded();
+  void releaseDevice();
+  void startAndStop(Time now);
+  void stepDevice(Time now);
+  void receive(const ImageView& image, Time now);
+  bool isWarmingUp(Stream& stream) const;
+  void checkSilence(Time now);
+  void checkRate();
+  void applySettings();
+  Stream& stream(StreamKind kind) { return streams_[static_cast<std::size_t>(kind)]; }
+
+  DeviceRequest request_;
+  SessionTimes times_;
+  DeviceFactory factory_;
+  HostClock host_clock_;
+  CameraListener& listener_;
+
+  StreamDemand demand_;
+  CameraSettings wanted_settings_;
+  bool settings_pending_ = true;
+  std::unique_ptr<CameraDevice> device_;
+  std::array<Stream, kStreamKinds> streams_;
+  ClockFilter clock_filter_;
+  CameraStatus status_;
+  std::chrono::milliseconds pause_{0};
+  Time next_attempt_;
+  bool was_open_ = false;
+  bool device_delivered_ = false;  ///< an image since it was opened
+};
+
+}  // namespace mivo

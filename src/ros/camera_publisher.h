@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <image_transport/camera_publisher.h>
+#include <ros/node_handle.h>
+#include <sensor_msgs/Image.h>
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "openni2/camera_session.h"
+#include "openni2/frame_pairer.h"
+#include "ros/camera_calibration.h"
+#include "ros/camera_parameters.h"
+
+namespace mivo {
+
+/// The message of an image: rgb8; depth 16UC1 when it is in millimetres, otherwise 32FC1 in metres
+/// with NaN for no reading. The only copy of the pixels that is made.
+sensor_msgs::ImagePtr toMessage(const ImageView& view);
+
+struct PairStatistics {
+  std::int64_t pairs = 0;
+  std::int64_t singles = 0;  ///< images whose partner was lost
+  double offset = 0.0;       ///< s, depth minus colour, of the last pair
+};
+
+/// Publishes images with their camera_info, colour and depth of a pair together, as pointers: a
+/// nodelet in the same manager gets the message that is made here.
+class CameraPublisher {
+ public:
+  /// `on_demand` is called when subscribers come or go.
+  CameraPublisher(ros::NodeHandle node, const CameraParameters& parameters,
+                  std::function<void(const StreamDemand&)> on_demand);
+  ~CameraPublisher();
+  CameraPublisher(const CameraPublisher&) = delete;
+  CameraPublisher& operator=(const CameraPublisher&) = delete;
+
+  /// From the camera's thread. @param stamp host time, ns
+  void add(const ImageView& image, std::int64_t stamp);
+  void setDevice(const DeviceDescription& device);
+  /// Added to the stamps from now on, s.
+  void setTimeOffsets(double color, double depth);
+
+  PairStatistics statistics() const;
+
+ private:
+  using Pairer = FramePairer<sensor_msgs::ImagePtr>;
+
+  void advertise(ros::NodeHandle node, bool registration);
+  void updateDemand();  // called behind the gate
+  void publishPair(Pairer::Entry& color, Pairer::Entry& depth);
+  void publish(StreamKind kind, const sensor_msgs::ImagePtr& image);
+
+  const std::string color_frame_;
+  const std::string depth_frame_;
+  const bool registered_;
+  std::function<void(const StreamDemand&)> on_demand_;
+  CameraCalibration color_calibration_;
+  std::unique_ptr<CameraCalibration> depth_calibration_;  ///< without registration only
+
+  /// What callbacks of subscribers pass: image_transport does not wait for those under way when a
+  /// publisher goes, so that they have a part in it.
+  struct Gate {
+    std::mutex mutex;
+    bool is_open = true;
+  };
+  std::shared_ptr<Gate> gate_ = std::make_shared<Gate>();
+  image_transport::CameraPublisher color_publisher_;
+  image_transport::CameraPublisher depth_publisher_;
+  std::atomic<bool> color_wanted_{false};
+  std::atomic<bool> depth_wanted_{false};
+  std::atomic<double> color_time_offset_{0.0};
+  std::atomic<double> depth_time_offset_{0.0};
+
+  Pairer pairer_;  // the camera thread's own
+  mutable std::mutex statistics_mutex_;
+  PairStatistics statistics_;
+};
+
+}  // namespace mivo

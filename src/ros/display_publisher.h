@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <geometry_msgs/Point.h>
+#include <image_transport/publisher.h>
+#include <ros/node_handle.h>
+#include <std_msgs/Header.h>
+
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "mivo/core/odometry.h"
+#include "ros/node_parameters.h"
+
+namespace mivo {
+
+/// Publishes what is there to be looked at: keyframe_cloud, keyframes, reference/image and
+/// residual/image. Nothing is computed for a topic that nobody listens to.
+class DisplayPublisher {
+ public:
+  DisplayPublisher(const ros::NodeHandle& private_node, const NodeParameters& parameters);
+
+  /// @param keyframe      number of the odometry's present keyframe
+  /// @param T_odom_world  world of the tracker in the published frame
+  /// @param header        of the colour image
+  void publish(const Odometry& odometry, int keyframe, const Eigen::Isometry3d& T_odom_world,
+               const std_msgs::Header& header);
+
+  /// When the odometry frame was moved: shows the keyframes where they are now.
+  void move(const Eigen::Isometry3d& T_new_old);
+  void clear();
+
+ private:
+  void publishCloud(const Odometry& odometry, const Eigen::Isometry3d& T_odom_keyframe,
+                    const ros::Time& stamp);
+  void publishMarkers(const ros::Time& stamp);
+  void publishImage(image_transport::Publisher& publisher, const cv::Mat& image,
+                    const std_msgs::Header& header);
+
+  NodeParameters parameters_;
+  ros::Publisher cloud_;
+  ros::Publisher markers_;
+  image_transport::Publisher reference_;
+  image_transport::Publisher residual_;
+  std::vector<Eigen::Isometry3d> keyframes_;  // T_odom_keyframe
+  Camera camera_;
+  int last_keyframe_ = 0;   // seen
+  int cloud_keyframe_ = 0;  // shown
+  int markers_keyframe_ = 0;
+  int reference_keyframe_ = 0;
+};
+
+}  // namespace mivo

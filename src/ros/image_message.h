@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ros/message_traits.h>
+#include <ros/time.h>
+#include <sensor_msgs/CameraInfo.h>
+#include <sensor_msgs/CompressedImage.h>
+#include <sensor_msgs/Image.h>
+
+#include <algorithm>
+#include <boost/make_shared.hpp>
+#include <boost/shared_ptr.hpp>
+
+#include "ros/image_conversion.h"
+
+namespace mivo {
+
+/// An image as it came, raw or compressed: it is decoded only when its turn has come.
+struct ImageMessage {
+  std_msgs::Header header;
+  sensor_msgs::ImageConstPtr raw;  ///< one of the two is set
+  sensor_msgs::CompressedImageConstPtr compressed;
+  ros::WallTime arrival;  ///< in this node
+
+  /// As the functions of the same names for messages.
+  ColourImage toColourImage() const {
+    return raw ? mivo::toColourImage(*raw) : mivo::toColourImage(*compressed);
+  }
+  DepthImage toDepthImage() const {
+    return raw ? mivo::toDepthImage(*raw) : mivo::toDepthImage(*compressed);
+  }
+};
+
+using ImageMessageConstPtr = boost::shared_ptr<const ImageMessage>;
+
+inline ImageMessageConstPtr wrap(const sensor_msgs::ImageConstPtr& message) {
+  return boost::make_shared<ImageMessage>(
+      ImageMessage{message->header, message, nullptr, ros::WallTime::now()});
+}
+inline ImageMessageConstPtr wrap(const sensor_msgs::CompressedImageConstPtr& message) {
+  return boost::make_shared<ImageMessage>(
+      ImageMessage{message->header, nullptr, message, ros::WallTime::now()});
+}
+
+/// A colour image, the depth image that belongs to it, and the calibration of both.
+struct ImagePair {
+  ImageMessageConstPtr colour;
+  ImageMessageConstPtr depth;
+  sensor_msgs::CameraInfoConstPtr camera_info;
+
+  /// When both were there.
+  ros::WallTime arrival() const { return std::max(colour->arrival, depth->arrival); }
+};
+
+}  // namespace mivo
+
+namespace ros {
+namespace message_traits {
+
+// What message_filters needs to know to pair the images by their stamps.
+template <>
+struct HasHeader<mivo::ImageMessage> : TrueType {};
+template <>
+struct HasHeader<const mivo::ImageMessage> : TrueType {};
+
+}  // namespace message_traits
+}  // namespace ros

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "synthetic/scene.h"
+
+namespace mivo {
+
+/// How a hand moves a camera in a scene: a closed form of time, so that the pose at any moment of
+/// an exposure is exact. Never leaves the viewpoint's reach.
+///
+///   static           does not move at all
+///   translation      drifts to and fro at up to 0.4 m/s, looking one way
+///   rotation         turns at up to 40 deg/s, nearly in place
+///   figure_of_eight  both, along a lying eight across the view
+///   fast_rotation    the rotation, four times as fast
+///
+/// All but `static` have the small tremor of a hand.
+class CameraPath {
+ public:
+  /// The seed shifts phases and the tremor. Throws Error for an unknown name, listing the known
+  /// ones.
+  CameraPath(const std::string& name, const Viewpoint& viewpoint, std::uint64_t seed);
+
+  /// T_world_camera of the optical frame at `t` seconds.
+  Eigen::Isometry3d poseAt(double t) const;
+
+  static const std::vector<std::string>& names();
+
+ private:
+  struct Swing {
+    double amplitude = 0.0;  // m or rad
+    double rate = 0.0;       // rad/s of the phase
+    double phase = 0.0;
+
+    double at(double t) const;
+  };
+  using Swings = std::array<Swing, 3>;
+
+  void addTremor();
+  void translate(const Eigen::Vector3d& peak_speed);
+  void rotate(const Eigen::Vector3d& peak_speed);
+  void followEight();
+  double randomPhase();
+
+  Viewpoint viewpoint_;
+  std::uint64_t seed_;
+  std::uint64_t draws_ = 0;
+  Swings position_;  // x, y, z of the scene
+  Swings angles_;    // yaw to the left, pitch upwards, roll
+  std::array<Swings, 3> position_tremor_;
+  std::array<Swings, 3> angle_tremor_;
+};
+
+}  // namespace mivo
