@@ -3,7 +3,7 @@
 
 #include <cstddef>
 
-#include "core/alignment/tracker.h"
+#include "core/alignment/align.h"
 #include "core/execution/cpu_clock.h"
 #include "pair_experiment.h"
 #include "random_twist.h"

@@ -78,4 +78,7 @@ std::string getParameter(const Parameters& parameters, const std::string& name);
 /// Whether a parameter differs that acts with a keyframe: one made with the other set is of no use.
 bool actWithKeyframe(const Parameters& before, const Parameters& after);
 
+/// `before`, but for those parameters that act live: as they are in `after`.
+Parameters withLiveParameters(const Parameters& before, const Parameters& after);
+
 }  // namespace mivo

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/alignment/minimise.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/alignment/newton_step.h"
@@ -31,11 +32,17 @@ Eigen::Isometry3d moved(const Eigen::Isometry3d& T_live_ref, const Vector6& step
   return orthonormalised(T_live_ref * retract(step).inverse());
 }
 
+/// Leaves of a step what lies in the free directions.
+void hold(const QuadraticModel& model, const Matrix6& free, NewtonStep& newton) {
+  newton.step = free * newton.step;
+  newton.promised_gain = std::max(0.0, -model.gradient.dot(newton.step));
+}
+
 }  // namespace
 
 Minimum minimise(const std::vector<CostTerm*>& terms, const Eigen::Isometry3d& T_live_ref,
                  double length, const Matrix6& pixel_motion, const Parameters& parameters,
-                 double tolerance, double trusted_step_pixels) {
+                 double tolerance, double trusted_step_pixels, const Matrix6* free) {
   const double min_step_pixels = tolerance * parameters.alignment.min_step_pixels;
   Minimum minimum;
   minimum.T_live_ref = T_live_ref;
@@ -45,9 +52,9 @@ Minimum minimise(const std::vector<CostTerm*>& terms, const Eigen::Isometry3d& T
   while (std::isfinite(minimum.cost) && minimum.iterations < parameters.alignment.max_iterations) {
     const QuadraticModel model = linearise(terms, minimum.iterations);
     minimum.cost = model.cost;
-    const NewtonStep newton = newtonStep(model, length, parameters.alignment.min_curvature);
-    minimum.hessian = newton.hessian;
-    minimum.condition = newton.condition;
+    NewtonStep newton = newtonStep(model, length, parameters.alignment.min_curvature);
+    if (free != nullptr) hold(model, *free, newton);
+    minimum.hessian = model.hessian;
     // Half the slope is what a quadratic cost would gain; without this test the last iteration
     // would spend all its halvings on nothing.
     const double enough = tolerance * parameters.alignment.min_cost_change * std::abs(model.cost);

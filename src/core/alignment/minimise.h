@@ -13,8 +13,7 @@ namespace mivo {
 struct Minimum {
   Eigen::Isometry3d T_live_ref;
   double cost = 0.0;                      ///< nats, of all terms
-  Matrix6 hessian = Matrix6::Identity();  ///< nats, guarded, of the last model
-  double condition = 0.0;                 ///< weakest over strongest curvature, before the guard
+  Matrix6 hessian = Matrix6::Zero();      ///< nats, of the last model, before the guard
   int iterations = 0;                     ///< steps taken
   int evaluations = 0;                    ///< of the cost
   double line_search_milliseconds = 0.0;  ///< processor time in evaluations after the first
@@ -26,9 +25,11 @@ struct Minimum {
 /// helps. The terms are left evaluated at the pose that is returned, or an untried step before it.
 /// @param length median depth, m. @param pixel_motion see ReferencePoints. @param tolerance is
 /// multiplied with the step and the gain that end it. @param trusted_step_pixels where the cost is
-/// convex, a shorter step is taken untried and ends it.
+/// convex, a shorter step is taken untried and ends it. @param free projects steps onto the
+/// directions in which the pose may move; null: all.
 Minimum minimise(const std::vector<CostTerm*>& terms, const Eigen::Isometry3d& T_live_ref,
                  double length, const Matrix6& pixel_motion, const Parameters& parameters,
-                 double tolerance = 1.0, double trusted_step_pixels = 0.0);
+                 double tolerance = 1.0, double trusted_step_pixels = 0.0,
+                 const Matrix6* free = nullptr);
 
 }  // namespace mivo

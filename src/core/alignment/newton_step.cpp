@@ -24,10 +24,9 @@ NewtonStep newtonStep(const QuadraticModel& model, double length, double min_cur
   result.step = scale.asDiagonal() * step;
   result.promised_gain = -model.gradient.dot(result.step);
   const Vector6 inverse = scale.cwiseInverse();
-  result.hessian = inverse.asDiagonal() * (axes * guarded.asDiagonal() * axes.transpose()) *
-                   inverse.asDiagonal();
+  result.guarded_hessian = inverse.asDiagonal() * (axes * guarded.asDiagonal() * axes.transpose()) *
+                           inverse.asDiagonal();
   result.is_convex = curvature.minCoeff() >= bound;
-  result.condition = curvature.minCoeff() / strongest;
   return result;
 }
 

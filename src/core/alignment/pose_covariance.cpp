@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/alignment/pose_covariance.h"
 
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+
 namespace mivo {
 namespace {
 
@@ -24,6 +27,14 @@ Matrix6 floorCovariance() {
 
 Matrix6 guessCovariance() {
   return diagonalCovariance(kGuessTranslation, kGuessRotation);
+}
+
+Matrix6 positivePart(const Matrix6& covariance) {
+  const Eigen::SelfAdjointEigenSolver<Matrix6> solver(
+      Matrix6(0.5 * (covariance + covariance.transpose())));
+  constexpr double kLeast = std::min(kFloorTranslation, kFloorRotation);
+  const Vector6 variances = solver.eigenvalues().cwiseMax(kLeast * kLeast);
+  return solver.eigenvectors() * variances.asDiagonal() * solver.eigenvectors().transpose();
 }
 
 Matrix6 liveCovariance(const Eigen::Isometry3d& T_live_ref, const Matrix6& of_increment,

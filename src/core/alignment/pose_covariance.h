@@ -18,6 +18,9 @@ Matrix6 floorCovariance();
 /// Of a pose that is only a guess: a metre and a radian.
 Matrix6 guessCovariance();
 
+/// The nearest covariance whose variances are at least those of floorCovariance().
+Matrix6 positivePart(const Matrix6& covariance);
+
 /// Of the live camera's pose T_odom_ref T_ref_live. @param of_increment covariance of the increment
 /// d of the alignment, T_odom_live = T_odom_ref retract(d) T_ref_live, which moves the live camera
 /// by Ad(T_live_ref) d. @param of_reference covariance of T_odom_ref. Symmetric, positive definite.

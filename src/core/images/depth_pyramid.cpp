@@ -39,6 +39,13 @@ kernels::DepthView depthView(const Frame& frame) {
   return {frame.depth.ptr<float>(), nullptr, stride, 1.0F};
 }
 
+float depthAt(const kernels::DepthView& depth, int x, int y) {
+  const std::ptrdiff_t index = y * depth.stride + x;
+  const float z = depth.metres != nullptr ? depth.metres[index]
+                                          : static_cast<float>(depth.steps[index]) * depth.unit;
+  return z > 0.0F && z < kernels::kMaxReading ? z : 0.0F;
+}
+
 void DepthPyramid::build(const Frame& frame, int num_levels, double min_depth, double max_depth,
                          double edge_ratio) {
   levels_.resize(static_cast<std::size_t>(num_levels));

@@ -28,9 +28,7 @@ class DepthPyramid {
 /// The readings of a frame as the kernels see them.
 kernels::DepthView depthView(const Frame& frame);
 
-/// One reading in metres, 0 for none: the conversion that all of mivo uses.
-inline float depthInMetres(unsigned short raw, float unit) {
-  return static_cast<float>(raw) * unit;
-}
+/// One reading, m; 0 for none.
+float depthAt(const kernels::DepthView& depth, int x, int y);
 
 }  // namespace mivo

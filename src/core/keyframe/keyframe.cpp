@@ -90,7 +90,10 @@ void Keyframe::choosePoints(const FramePyramid& frame, const Vector6& twist_per_
   }
 }
 
-void Keyframe::choosePointsByDepth(const Parameters& parameters) {
+void Keyframe::choosePointsByDepth(double last_lit_contrast, const Parameters& parameters) {
+  const bool shows_little = last_lit_contrast > contrast_in_view_ ||
+                            static_cast<int>(numPoints()) < parameters.loss.lost_points;
+  if (!shows_little) return;
   for (int l = 0; l < numLevels(); ++l) {
     ReferencePoints& points = levels_[static_cast<std::size_t>(l)].points;
     if (static_cast<int>(points.size()) >= parameters.points.min_points) continue;

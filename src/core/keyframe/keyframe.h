@@ -34,9 +34,10 @@ class Keyframe {
   /// and computing what depends on them. Between them there are image, depth and number of points.
   void choosePoints(const FramePyramid& frame, const Vector6& twist_per_period,
                     const ShutterTimes& shutter, const Parameters& parameters);
-  /// In between, for a keyframe of the dark: where the image gave too few points to tell what is in
-  /// view, depth gives them.
-  void choosePointsByDepth(const Parameters& parameters);
+  /// In between: where the image gave too few points to tell what is in view, depth gives them; to
+  /// a keyframe that shows less contrast than the last one that could be compared, or next to
+  /// nothing.
+  void choosePointsByDepth(double last_lit_contrast, const Parameters& parameters);
   void finish(const FramePyramid& frame, const Camera& camera, const Parameters& parameters);
 
   /// See FramePyramid::contrastInView().

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "core/alignment/tracker.h"
+#include "core/alignment/align.h"
 #include "core/keyframe/keyframe.h"
 #include "mivo/core/parameters.h"
 

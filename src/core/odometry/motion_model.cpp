@@ -4,88 +4,141 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/execution/recycled.h"
+#include "core/alignment/pose_covariance.h"
 
 namespace mivo {
 namespace {
 
-constexpr std::size_t kIntervals = 31;  // one second of a usual camera
+/// Diagonal of the squares of a speed (m/s) and a turn rate (rad/s).
+Matrix6 squares(double speed, double turn_rate) {
+  return diagonalCovariance(speed, turn_rate);
+}
+
+/// Integral over the time of the deviation of a velocity of which nothing was known at first, in
+/// units of kMotionHorizon: of sqrt(1 - exp(-2 u)).
+double integralOfGrowth(double u) {
+  return u > 0.0 ? std::acosh(std::exp(std::min(u, 300.0))) - std::sqrt(1.0 - std::exp(-2.0 * u))
+                 : 0.0;
+}
 
 }  // namespace
 
-void MotionModel::addStamp(double stamp) {
-  if (has_stamp_ && stamp > last_stamp_) {
-    const double interval = stamp - last_stamp_;
-    if (intervals_.size() < kIntervals) {
-      intervals_.push_back(interval);
-    } else {
-      intervals_[next_interval_] = interval;
-      next_interval_ = (next_interval_ + 1) % kIntervals;
-    }
+void MotionModel::add(const MeasuredPose& pose, const FrameClock& clock,
+                      const MotionParameters& parameters) {
+  has_velocity_ = has_pose_;
+  if (has_velocity_) {
+    motion_ = logSe3(last_.T_odom_camera.inverse() * pose.T_odom_camera);
+    previous_stamp_ = last_.stamp;
   }
-  last_stamp_ = stamp;
-  has_stamp_ = true;
-}
-
-void MotionModel::add(double stamp, const Eigen::Isometry3d& T_odom_camera) {
-  if (poses_.size() == 2) poses_.erase(poses_.begin());
-  poses_.push_back({stamp, T_odom_camera});
-}
-
-double MotionModel::period(const Parameters& parameters) const {
-  if (parameters.motion.frame_period > 0.0) return parameters.motion.frame_period;
-  if (intervals_.empty()) return 0.0;
-  Recycled<std::vector<double>> sorted;
-  *sorted = intervals_;
-  const auto middle = sorted->begin() + static_cast<std::ptrdiff_t>(sorted->size() / 2);
-  std::nth_element(sorted->begin(), middle, sorted->end());
-  return *middle;
-}
-
-double MotionModel::steps(double from, double to, const Parameters& parameters) const {
-  const double period_s = period(parameters);
-  return period_s > 0.0 ? std::max(1.0, std::round((to - from) / period_s)) : 1.0;
-}
-
-Eigen::Isometry3d MotionModel::predict(double stamp, const Eigen::Isometry3d& last,
-                                       const Parameters& parameters) const {
-  if (parameters.motion.motion_model == MotionModelKind::kConstantPose || poses_.size() < 2) {
-    return last;
+  const Matrix6 covariance_before = last_.alignment_covariance;
+  last_ = pose;
+  const bool is_first = !has_pose_;
+  has_pose_ = true;
+  if (pose.has_open_directions && !is_first) return;
+  seen_ = pose;
+  const Matrix6 unknown = squares(parameters.expected_speed, parameters.expected_turn_rate);
+  const double seconds = periods(clock, parameters) * clock.period(parameters);
+  if (!has_velocity_ || !(seconds > 0.0)) {
+    seen_speed_ = seen_turn_rate_ = 0.0;
+    velocity_covariance_ = unknown;
+    return;
   }
-  const Pose& a = poses_[0];
-  const Pose& b = poses_[1];
-  const Vector6 motion = logSe3(a.T_odom_camera.inverse() * b.T_odom_camera);
-  const double ratio = steps(b.stamp, stamp, parameters) / steps(a.stamp, b.stamp, parameters);
-  return orthonormalised(b.T_odom_camera * expSe3(ratio * motion));
-}
-
-double MotionModel::periodsSince(double stamp, const Parameters& parameters) const {
-  return poses_.empty() ? 1.0 : steps(poses_.back().stamp, stamp, parameters);
-}
-
-Vector6 MotionModel::velocity(const Parameters& parameters) const {
-  const double period_s = period(parameters);
-  if (poses_.size() < 2 || !(period_s > 0.0)) return Vector6::Zero();
-  const Pose& a = poses_[0];
-  const Pose& b = poses_[1];
-  return logSe3(a.T_odom_camera.inverse() * b.T_odom_camera) /
-         (steps(a.stamp, b.stamp, parameters) * period_s);
-}
-
-MotionUncertainty MotionModel::uncertainty(double stamp, const Parameters& parameters) const {
-  const double period_s = period(parameters);
-  if (poses_.size() < 2 || !(period_s > 0.0)) return {};
-  const double seconds = period_s * periodsSince(stamp, parameters);
-  return {parameters.motion.expected_acceleration * seconds * seconds,
-          parameters.motion.expected_turn_acceleration * seconds * seconds};
+  seen_speed_ = motion_.head<3>().norm() / seconds;
+  seen_turn_rate_ = motion_.tail<3>().norm() / seconds;
+  const Matrix6 accelerated = squares(parameters.expected_acceleration * seconds,
+                                      parameters.expected_turn_acceleration * seconds);
+  velocity_covariance_ = (covariance_before + pose.alignment_covariance) / (seconds * seconds) +
+                         accelerated.cwiseMin(unknown);
 }
 
 void MotionModel::stop() {
-  poses_.clear();
+  has_pose_ = false;
+  has_velocity_ = false;
+  motion_.setZero();
 }
 
 void MotionModel::transform(const Eigen::Isometry3d& T_new_old) {
-  for (Pose& pose : poses_) pose.T_odom_camera = orthonormalised(T_new_old * pose.T_odom_camera);
+  for (MeasuredPose* pose : {&last_, &seen_}) {
+    pose->T_odom_camera = orthonormalised(T_new_old * pose->T_odom_camera);
+  }
+}
+
+/// Frame periods between the last two poses.
+double MotionModel::periods(const FrameClock& clock, const MotionParameters& parameters) const {
+  return has_velocity_ ? clock.periodsBetween(previous_stamp_, last_.stamp, parameters) : 1.0;
+}
+
+/// How long before the last pose its open directions were seen.
+double MotionModel::secondsUnseen(double stamp) const {
+  return std::max(0.0, stamp - seen_.stamp);
+}
+
+Vector6 MotionModel::motionUntil(double stamp, const FrameClock& clock,
+                                 const MotionParameters& parameters) const {
+  const double period = clock.period(parameters);
+  const double wanted = clock.periodsBetween(last_.stamp, stamp, parameters);
+  const auto within = [&](double seconds) {
+    return period > 0.0 ? std::min(wanted, std::max(0.0, seconds) / period) : wanted;
+  };
+  const double of_seen = within(std::max(kMotionHorizon, period));
+  const double of_motion = periods(clock, parameters);
+  if (!last_.has_open_directions) return of_seen / of_motion * motion_;
+  const double of_open = within(kMotionHorizon - secondsUnseen(last_.stamp));
+  return (of_seen * motion_ + (of_open - of_seen) * (last_.open_projector * motion_)) / of_motion;
+}
+
+Eigen::Isometry3d MotionModel::predict(double stamp, const Eigen::Isometry3d& last,
+                                       const FrameClock& clock,
+                                       const MotionParameters& parameters) const {
+  if (parameters.motion_model == MotionModelKind::kConstantPose || !has_velocity_) return last;
+  return orthonormalised(last_.T_odom_camera * expSe3(motionUntil(stamp, clock, parameters)));
+}
+
+/// What the camera may have gone astray within so many seconds of not being seen: its velocity
+/// keeps what it was for half a second, and may be as large as ever after that.
+Matrix6 MotionModel::drift(double seconds, const MotionParameters& parameters) const {
+  const double u = seconds / kMotionHorizon;
+  const double of_known = kMotionHorizon * (1.0 - std::exp(-u));
+  const double of_unknown = kMotionHorizon * integralOfGrowth(u);
+  return of_known * of_known * velocity_covariance_ +
+         of_unknown * of_unknown *
+             squares(std::max(seen_speed_, parameters.expected_speed),
+                     std::max(seen_turn_rate_, parameters.expected_turn_rate));
+}
+
+Matrix6 MotionModel::covariance(double stamp, const FrameClock& clock,
+                                const MotionParameters& parameters) const {
+  const double period = clock.period(parameters);
+  const double since_last = clock.periodsBetween(last_.stamp, stamp, parameters) *
+                            (period > 0.0 ? period : std::max(0.0, stamp - last_.stamp));
+  const Matrix6 of_seen = last_.covariance + drift(since_last, parameters);
+  if (!last_.has_open_directions) return of_seen;
+  const Matrix6 to_last = adjoint(last_.T_odom_camera.inverse() * seen_.T_odom_camera);
+  const Matrix6 of_open = to_last * seen_.covariance * to_last.transpose() +
+                          drift(secondsUnseen(last_.stamp) + since_last, parameters);
+  const Matrix6& open = last_.open_projector;
+  const Matrix6 seen = Matrix6::Identity() - open;
+  return seen * of_seen * seen.transpose() + open * of_open * open.transpose() + floorCovariance();
+}
+
+MotionUncertainty MotionModel::uncertainty(double stamp, const FrameClock& clock,
+                                           const MotionParameters& parameters) const {
+  const double period = clock.period(parameters);
+  if (!has_velocity_ || !(period > 0.0)) return {};
+  const double seconds = period * periodsSince(stamp, clock, parameters);
+  return {parameters.expected_acceleration * seconds * seconds,
+          parameters.expected_turn_acceleration * seconds * seconds};
+}
+
+Vector6 MotionModel::velocity(const FrameClock& clock, const MotionParameters& parameters) const {
+  const double period = clock.period(parameters);
+  if (!has_velocity_ || !(period > 0.0)) return Vector6::Zero();
+  return motion_ / (periods(clock, parameters) * period);
+}
+
+double MotionModel::periodsSince(double stamp, const FrameClock& clock,
+                                 const MotionParameters& parameters) const {
+  return has_pose_ ? clock.periodsBetween(last_.stamp, stamp, parameters) : 1.0;
 }
 
 }  // namespace mivo

@@ -2,59 +2,84 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <vector>
 
+#include "core/odometry/frame_clock.h"
 #include "core/terms/motion_prior_term.h"
 #include "mivo/core/parameters.h"
 #include "mivo/core/se3.h"
 
 namespace mivo {
 
-/// Constant velocity in whole frame periods: stamps jitter by a third of a period while the camera
-/// is regular, so the number of periods between two frames is what counts, not their stamps.
+/// Motion is not continued for longer than this, s: a hand or a robot may have stopped by then.
+constexpr double kMotionHorizon = 0.5;
+
+/// A pose that an image or depth has told, entirely or but for some directions.
+struct MeasuredPose {
+  double stamp = 0.0;  ///< s
+  Eigen::Isometry3d T_odom_camera = Eigen::Isometry3d::Identity();
+  /// Of its error in the axes of the camera, see TrackingResult::covariance.
+  Matrix6 covariance = Matrix6::Zero();
+  /// The part of it that the alignment alone has.
+  Matrix6 alignment_covariance = Matrix6::Zero();
+  /// Projects motions in the axes of the camera onto those that were not seen; zero: all were.
+  Matrix6 open_projector = Matrix6::Zero();
+  bool has_open_directions = false;
+};
+
+/// How the camera moves: at constant velocity in whole frame periods, for half a second at most.
+/// In directions that are not seen the velocity is held so long, and what it may have become
+/// meanwhile is counted.
 class MotionModel {
  public:
-  /// Adds a pose that can be trusted; stamps grow.
-  void add(double stamp, const Eigen::Isometry3d& T_odom_camera);
+  /// Adds a pose; stamps grow.
+  void add(const MeasuredPose& pose, const FrameClock& clock, const MotionParameters& parameters);
 
-  /// Notes the stamp of a frame without a pose: it still tells the frame period.
-  void addStamp(double stamp);
-
-  /// Expected pose at a stamp. The given pose before two have been added.
-  Eigen::Isometry3d predict(double stamp, const Eigen::Isometry3d& last,
-                            const Parameters& parameters) const;
-
-  /// Velocity of the camera in its own axes, m/s and rad/s.
-  Vector6 velocity(const Parameters& parameters) const;
-
-  /// How far the prediction may be off, by the accelerations that the parameters expect. None
-  /// before two poses have been added, when there is no velocity to be kept.
-  MotionUncertainty uncertainty(double stamp, const Parameters& parameters) const;
-
-  /// Forgets the velocity, keeps the frame period: the next pose is not a continuation.
+  /// Forgets the poses: the next one is not a continuation.
   void stop();
 
   /// Expresses the poses in another world: T_new_old.
   void transform(const Eigen::Isometry3d& T_new_old);
 
-  /// Whole frame periods from the last pose to a stamp, at least one.
-  double periodsSince(double stamp, const Parameters& parameters) const;
+  bool hasPose() const { return has_pose_; }
 
-  /// Frame period: the parameter, or the median of the last stamps' differences, s; 0: unknown.
-  double period(const Parameters& parameters) const;
+  /// Expected pose at a stamp. The given pose before two have been added.
+  Eigen::Isometry3d predict(double stamp, const Eigen::Isometry3d& last, const FrameClock& clock,
+                            const MotionParameters& parameters) const;
+
+  /// Covariance of the error of that pose in the axes of the camera. Of a camera whose velocity is
+  /// not known it grows as the parameters expect it to move.
+  Matrix6 covariance(double stamp, const FrameClock& clock,
+                     const MotionParameters& parameters) const;
+
+  /// How far the prediction may be off, by the accelerations that the parameters expect. None
+  /// before two poses have been added, when there is no velocity to be kept.
+  MotionUncertainty uncertainty(double stamp, const FrameClock& clock,
+                                const MotionParameters& parameters) const;
+
+  /// Velocity of the camera in its own axes, m/s and rad/s; zero before two poses.
+  Vector6 velocity(const FrameClock& clock, const MotionParameters& parameters) const;
+
+  /// Whole frame periods from the last pose to a stamp, at least one.
+  double periodsSince(double stamp, const FrameClock& clock,
+                      const MotionParameters& parameters) const;
 
  private:
-  double steps(double from, double to, const Parameters& parameters) const;
+  double periods(const FrameClock& clock, const MotionParameters& parameters) const;
+  double secondsUnseen(double stamp) const;
+  Vector6 motionUntil(double stamp, const FrameClock& clock,
+                      const MotionParameters& parameters) const;
+  Matrix6 drift(double seconds, const MotionParameters& parameters) const;
 
-  std::vector<double> intervals_;  // the last ones, as a ring
-  std::size_t next_interval_ = 0;
-  double last_stamp_ = 0.0;
-  bool has_stamp_ = false;
-  struct Pose {
-    double stamp;
-    Eigen::Isometry3d T_odom_camera;
-  };
-  std::vector<Pose> poses_;  // the last two at most, older first
+  bool has_pose_ = false;
+  bool has_velocity_ = false;
+  MeasuredPose last_;
+  Vector6 motion_ = Vector6::Zero();  // from the pose before the last to it, in the camera's axes
+  double previous_stamp_ = 0.0;       // of the pose before the last
+  // The last pose of which all directions were seen, and how fast the camera was then.
+  MeasuredPose seen_;
+  double seen_speed_ = 0.0;                        // m/s
+  double seen_turn_rate_ = 0.0;                    // rad/s
+  Matrix6 velocity_covariance_ = Matrix6::Zero();  // of its error then
 };
 
 }  // namespace mivo

@@ -12,7 +12,7 @@ namespace {
 
 // Poses by depth and by image differ by this for other reasons, and so do velocities, rad. It keeps
 // a camera that hardly moves from having its say.
-constexpr double kModelError = 4e-4;
+constexpr double kModelErrorAngle = 4e-4;
 // One frame counts at most this much: the errors of a keyframe's frames are not independent.
 constexpr double kMaxInformation = 100.0;
 constexpr double kMaxCorrection = 1.0;
@@ -100,7 +100,8 @@ DepthOffsetMeasurement measureDepthOffset(const TermModel& image, const TermMode
   const double variance =
       followed.dot(image.gradient_covariance * followed) +
       rest.dot(depth.gradient_covariance * rest) +
-      by_depth.dot(diagonalCovariance(kModelError * median_depth, kModelError) * by_depth);
+      by_depth.dot(diagonalCovariance(kModelErrorAngle * median_depth, kModelErrorAngle) *
+                   by_depth);
   if (!(variance > 0.0)) return {};
   return {gradient / curvature, curvature * curvature / variance};
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include "core/alignment/tracker.h"
+#include "core/alignment/align.h"
 #include "core/geometry/row_motion.h"
 #include "core/shutter/depth_offset_estimator.h"
 #include "core/shutter/readout_estimator.h"
@@ -16,11 +16,11 @@ class ShutterModel {
   /// Adds what a frame says, held against a keyframe whose velocity was known.
   void add(const Alignment& alignment);
 
-  /// Before a keyframe is made. @param period s between two frames; 0: not known yet.
-  void endKeyframe(const Parameters& parameters, double period);
+  /// When a keyframe is made. @param period s between two frames; 0: not known yet.
+  void endKeyframe(const ShutterParameters& parameters, double period);
 
   /// In frame periods. @param period see endKeyframe().
-  ShutterTimes times(const Parameters& parameters, double period) const;
+  ShutterTimes times(const ShutterParameters& parameters, double period) const;
 
  private:
   ReadoutEstimator readout_;

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 
+#include "core/terms/agreement.h"
 #include "mivo/core/se3.h"
 
 namespace mivo {
@@ -14,6 +15,11 @@ struct QuadraticModel {
   Vector6 gradient = Vector6::Zero();
   Matrix6 hessian = Matrix6::Zero();
 };
+
+/// Fewer blocks of the image say nothing about how much they err together.
+constexpr int kFewestBlocks = 15;
+/// As iteration of linearise(): the scale of the residuals stays what it is.
+constexpr int kScaleIsKept = 1 << 20;
 
 /// One way of saying how well a pose aligns the live frame with the keyframe, on one level.
 class CostTerm {
@@ -35,6 +41,9 @@ class CostTerm {
     covariance.setZero();
     return 0;
   }
+
+  /// How the derivatives of keyframe and live frame agree at the pose of the last evaluate().
+  virtual Agreement agreement() const { return {}; }
 };
 
 }  // namespace mivo

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/images/depth_pyramid.h"
+#include "core/terms/depth_agreement.h"
 
 namespace mivo {
 
@@ -56,6 +57,11 @@ int GeometricTerm::gradientCovariance(Matrix6& covariance) const {
   std::array<const float*, 6> jacobian;
   for (std::size_t k = 0; k < 6; ++k) jacobian[k] = (*jacobian_)[k].data();
   return sum_.scoreCovariance(*residuals_, jacobian, *u_, *v_, warp_.camera(), covariance);
+}
+
+Agreement GeometricTerm::agreement() const {
+  return depthAgreement(points_, live_.frame(), warp_.camera(), *u_, *v_, residuals_->visible,
+                        T_live_ref_);
 }
 
 QuadraticModel GeometricTerm::linearise(int iteration) {

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "core/execution/parallel_chunks.h"
+#include "core/terms/image_agreement.h"
 
 namespace mivo {
 
@@ -121,6 +122,11 @@ QuadraticModel MiTerm::linearise(int) {
   model.hessian = hessian_ == MiHessian::kReference ? reference_.self_hessian
                                                     : Matrix6(-n * derivatives.hessian);
   return model;
+}
+
+Agreement MiTerm::agreement() const {
+  return imageAgreement(points_, {live_image_, nullptr}, *samples_, samples_->visible, warp_,
+                        T_live_ref_);
 }
 
 }  // namespace mivo

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "core/terms/image_agreement.h"
+
 namespace mivo {
 namespace {
 
@@ -23,6 +25,7 @@ SsdTerm::SsdTerm(const ReferencePoints& points, std::size_t num_points, const cv
       warp_(warp),
       sum_(parameters.ssd.robust_weight, parameters.ssd.min_residual_scale, parameters),
       saturation_(parameters.alignment.saturation),
+      may_be_negative_(parameters.ssd.negative_images && contrast != nullptr),
       least_correlation_(parameters.loss.retry_correlation),
       scale_iterations_(parameters.ssd.robust_scale_iterations) {}
 
@@ -41,7 +44,7 @@ void SsdTerm::sample(const Eigen::Isometry3d& T_live_ref) {
   residuals_->value.resize(num_points_);
   std::swap(residuals_->visible, samples_->visible);
   residuals_->num_visible = samples_->num_visible;
-  if (contrast_ != nullptr && !is_sampled_) is_inverted_ = correlation() < -least_correlation_;
+  if (may_be_negative_ && !is_sampled_) is_inverted_ = correlation() < -least_correlation_;
   if (is_inverted_) {
     for (float& value : samples_->value) value = -value;
   }
@@ -70,6 +73,11 @@ int SsdTerm::gradientCovariance(Matrix6& covariance) const {
                                           warp_.camera(), covariance);
   covariance *= weight_ * weight_;
   return blocks;
+}
+
+Agreement SsdTerm::agreement() const {
+  return imageAgreement(points_, {live_image_, contrast_}, *samples_, residuals_->visible, warp_,
+                        T_live_ref_);
 }
 
 bool SsdTerm::isSignificant() const {

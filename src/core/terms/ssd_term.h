@@ -15,8 +15,9 @@ namespace mivo {
 
 /// Robust sum of squared differences (Eq. 1), inverse compositional Gauss-Newton: residual
 /// r = contrast * live - intensity, in grey levels, of the scale that the residuals themselves
-/// show. Normalised images may also be each other's negatives, which mutual information does not
-/// mind either: when they are at the first pose, the live one is taken as its negative.
+/// show. Where the parameters allow for it, normalised images may also be each other's negatives,
+/// as for mutual information: when they are at the first pose, the live one is taken as its
+/// negative.
 class SsdTerm : public CostTerm {
  public:
   /// Of the first `num_points` points. Keeps references to all arguments but the parameters.
@@ -27,6 +28,7 @@ class SsdTerm : public CostTerm {
   double evaluate(const Eigen::Isometry3d& T_live_ref) override;
   QuadraticModel linearise(int iteration) override;
   int gradientCovariance(Matrix6& covariance) const override;
+  Agreement agreement() const override;
 
   /// Robust standard deviation of the residuals, grey levels; 0 before the first evaluate().
   double scale() const { return sum_.scale(); }
@@ -57,6 +59,7 @@ class SsdTerm : public CostTerm {
   const Warp& warp_;
   RobustSum sum_;
   double saturation_;
+  bool may_be_negative_;
   double least_correlation_;  // a stronger negative one is no chance
   bool is_inverted_ = false;
   int scale_iterations_;

@@ -39,8 +39,7 @@ TEST(NewtonStepTest, ADefiniteModelIsSolvedExactly) {
   EXPECT_LT((model.hessian * result.step + model.gradient).norm(), 1e-12);
   EXPECT_NEAR(result.promised_gain, -model.gradient.dot(result.step), 1e-15);
   EXPECT_GT(result.promised_gain, 0.0);
-  EXPECT_LT((result.hessian - model.hessian).norm(), 1e-12);
-  EXPECT_NEAR(result.condition, 1.0 / 13.0, 1e-12);
+  EXPECT_LT((result.guarded_hessian - model.hessian).norm(), 1e-12);
 }
 
 TEST(NewtonStepTest, AnIndefiniteModelStillGivesADescent) {
@@ -52,7 +51,7 @@ TEST(NewtonStepTest, AnIndefiniteModelStillGivesADescent) {
     const NewtonStep result = newtonStep(model, 2.0, kMinCurvature);
     EXPECT_GT(result.promised_gain, 0.0);
     EXPECT_LT(model.gradient.dot(result.step), 0.0);
-    const Eigen::SelfAdjointEigenSolver<Matrix6> solver(result.hessian);
+    const Eigen::SelfAdjointEigenSolver<Matrix6> solver(result.guarded_hessian);
     EXPECT_GT(solver.eigenvalues().minCoeff(), 0.0);
   }
 }
@@ -66,9 +65,8 @@ TEST(NewtonStepTest, CurvaturesAreReplacedByTheirMagnitudeOrTheBound) {
   std::sort(expected.data(), expected.data() + 6);
   const QuadraticModel model{0.0, randomVector(random), symmetric(curvature, random)};
   const NewtonStep result = newtonStep(model, 1.0, kMinCurvature);
-  const Eigen::SelfAdjointEigenSolver<Matrix6> solver(result.hessian);
+  const Eigen::SelfAdjointEigenSolver<Matrix6> solver(result.guarded_hessian);
   EXPECT_LT((solver.eigenvalues() - expected).norm(), 1e-12);
-  EXPECT_NEAR(result.condition, -0.4, 1e-12);
 }
 
 TEST(NewtonStepTest, TheStepDoesNotDependOnTheUnitOfTheCost) {
@@ -95,7 +93,6 @@ TEST(NewtonStepTest, TheGuardDoesNotDependOnTheUnitOfLength) {
   const NewtonStep b = newtonStep(large, 3.0, kMinCurvature);
   EXPECT_LT((per_length.asDiagonal() * b.step - a.step).norm(), 1e-10 * a.step.norm());
   EXPECT_NEAR(a.promised_gain, b.promised_gain, 1e-10 * a.promised_gain);
-  EXPECT_NEAR(a.condition, b.condition, 1e-12);
 }
 
 TEST(NewtonStepTest, NothingToGoByGivesNoStep) {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/alignment/tracker.h"
+#include "core/alignment/align.h"
 #include "core/terms/geometric_term.h"
 #include "support/random_pose.h"
 #include "support/scene.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/alignment/tracker.h"
+#include "core/alignment/align.h"
 
 #include <gtest/gtest.h>
 

@@ -16,22 +16,38 @@
 
 namespace mivo {
 
+/// What is expected of the live camera's pose before its image is looked at.
+struct PoseExpectation {
+  bool is_known = false;  ///< false: the camera may be anywhere, and so may the start
+  Eigen::Isometry3d T_live_ref = Eigen::Isometry3d::Identity();
+  /// Of its error, in the axes of the expected camera, and of that of the keyframe in its own; both
+  /// m and rad, in one world.
+  Matrix6 covariance = Matrix6::Identity();
+  Matrix6 keyframe_covariance = Matrix6::Zero();
+};
+
+/// How the live camera has moved since the frame before it.
+struct LiveMotion {
+  /// Pose of the frame before the live one; where nothing leads here: that of the start.
+  Eigen::Isometry3d T_previous_ref = Eigen::Isometry3d::Identity();
+  double periods = 1.0;  ///< frame periods between the two
+};
+
 /// Two images of one camera and where to start.
 struct AlignmentTask {
   const Keyframe& keyframe;
   const FramePyramid& live;
   const Camera& camera;
   Eigen::Isometry3d T_live_ref = Eigen::Isometry3d::Identity();  ///< start
-  /// Pose of the frame before the live one and the frame periods between them: how the camera
-  /// moves.
-  Eigen::Isometry3d T_previous_ref = Eigen::Isometry3d::Identity();
-  double periods = 1.0;
+  LiveMotion motion = {};
   ShutterTimes shutter = {};
   /// Contrast of the last view that could be compared by its image, see contrastInView(); less than
   /// the keyframe's: that counts.
   double last_lit_contrast = 0.0;
   /// Of the start, if it was predicted from a known velocity; 0: not known.
   MotionUncertainty uncertainty = {};
+  /// Holds the pose in the directions that image and depth leave open.
+  PoseExpectation expected = {};
 };
 
 /// Result of aligning one frame with a keyframe.
@@ -39,6 +55,9 @@ struct Alignment {
   Eigen::Isometry3d T_live_ref = Eigen::Isometry3d::Identity();
   Matrix6 hessian = Matrix6::Identity();     ///< of the increment at T_live_ref, nats
   Matrix6 covariance = Matrix6::Identity();  ///< of the increment's error
+  bool has_open_directions = false;          ///< image and depth leave some open
+  Directions open_directions{};              ///< which, in the axes of the live camera
+  Matrix6 open_projector = Matrix6::Zero();  ///< onto them, of motions in those axes
   double condition = 0.0;               ///< weakest over strongest curvature on the finest level
   int points = 0;                       ///< in view on the finest level
   double overlap = 0.0;                 ///< fraction of the finest level's points in view
@@ -49,7 +68,7 @@ struct Alignment {
   double mutual_information = 0.0;      ///< nats, on the finest level that uses it
   double residual_scale = 0.0;          ///< grey levels, on the finest SSD level
   double depth_scale = 0.0;             ///< residuals of the geometric term in deviations (or 0)
-  double correlation = 0.0;             ///< of the images, on the finest SSD level
+  double correlation = 0.0;             ///< of the images, on the finest level
   ReadoutMeasurement readout;           ///< what the frame says about it
   DepthOffsetMeasurement depth_offset;  ///< the same
   int num_levels = 0;
@@ -61,7 +80,8 @@ struct Alignment {
 
 /// Aligns a frame with a keyframe from the coarsest level to the finest: mutual information or SSD
 /// on each, as the parameters say (Algorithm 1), with the geometric term beside SSD, and alone
-/// where the image is of no use. A level with too few points in view is passed over.
+/// where the image is of no use. A level with too few points in view is passed over. What neither
+/// image nor depth fixes stays where it is expected.
 Alignment align(const AlignmentTask& task, const Parameters& parameters);
 
 }  // namespace mivo

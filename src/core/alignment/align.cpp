@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/alignment/align.h"
+
+#include <algorithm>
+
+#include "core/alignment/level_aligner.h"
+
+namespace mivo {
+namespace {
+
+// Fewer grey levels on the coarsest level are no view, only what noise leaves there.
+constexpr double kLeastContrast = 1.0;
+
+/// Whether the two images show enough to be compared: as much as the last view that could be.
+void judgeContrast(const AlignmentTask& task, const Parameters& parameters, Alignment& alignment) {
+  const double of_keyframe = task.keyframe.contrastInView();
+  const double least = std::max(kLeastContrast, parameters.loss.blind_contrast *
+                                                    std::max(of_keyframe, task.last_lit_contrast));
+  alignment.is_keyframe_dark = of_keyframe < least;
+  alignment.is_live_dark = task.live.contrastInView() < least;
+}
+
+}  // namespace
+
+Alignment align(const AlignmentTask& task, const Parameters& parameters) {
+  Alignment alignment;
+  alignment.T_live_ref = task.T_live_ref;
+  judgeContrast(task, parameters, alignment);
+  for (int l = task.keyframe.numLevels() - 1; l >= 0; --l) {
+    LevelRecord& record = alignment.levels[static_cast<std::size_t>(alignment.num_levels++)];
+    LevelAligner(task, l, parameters, alignment, record).run();
+  }
+  const LevelRecord& finest = alignment.levels[static_cast<std::size_t>(alignment.num_levels - 1)];
+  alignment.points = finest.visible;
+  return alignment;
+}
+
+}  // namespace mivo

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/alignment/level_aligner.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+
+#include "core/alignment/minimise.h"
+#include "core/alignment/open_directions.h"
+#include "core/execution/cpu_clock.h"
+#include "core/shutter/shutter_measurement.h"
+#include "core/terms/mi_evidence.h"
+
+namespace mivo {
+namespace {
+
+// The shutter is measured where noise is already averaged, but rows still differ.
+constexpr int kShutterLevel = 1;
+// Where few points have led the way all of them have one short step left, and need not try it.
+constexpr double kLastTolerance = 4.0;
+
+/// Motion of the scene per frame period in the axes of the live camera at a pose.
+Vector6 twistPerPeriod(const AlignmentTask& task, const Eigen::Isometry3d& T_live_ref) {
+  return localCoordinates(T_live_ref * task.motion.T_previous_ref.inverse()) / task.motion.periods;
+}
+
+/// How many times a term counts what it knows: the covariance of its gradient would be its Hessian
+/// if its residuals were independent.
+double correlationFactor(GeometricTerm& term) {
+  Matrix6 of_gradient;
+  if (term.gradientCovariance(of_gradient) < kFewestBlocks) return 1.0;
+  const Matrix6 hessian = term.linearise(0).hessian;
+  const Matrix6 ratio = hessian.ldlt().solve(of_gradient);
+  return std::max(1.0, ratio.trace() / 6.0);
+}
+
+}  // namespace
+
+LevelAligner::LevelAligner(const AlignmentTask& task, int level, const Parameters& parameters,
+                           Alignment& alignment, LevelRecord& record)
+    : task_(task),
+      level_(level),
+      parameters_(parameters),
+      points_(task.keyframe.level(level).points),
+      rows_{twistPerPeriod(task, alignment.T_live_ref), task.shutter.readout, 0.0},
+      warp_(task.camera.atLevel(level), rows_, parameters.alignment.threads),
+      depth_warp_(task.camera, {rows_.twist, rows_.readout, task.shutter.depth_offset},
+                  parameters.alignment.threads),
+      alignment_(alignment),
+      record_(record) {
+  record_ = LevelRecord{};
+  record_.level = level;
+  record_.points = static_cast<int>(points_.size());
+  record_.mutual_information = usesMutualInformation(parameters, level);
+}
+
+void LevelAligner::run() {
+  const double start = threadMilliseconds();
+  if (record_.mutual_information) {
+    alignByMutualInformation();
+  } else {
+    alignBySsd();
+  }
+  record_.milliseconds = threadMilliseconds() - start;
+}
+
+template <typename Term>
+bool LevelAligner::isEnoughInView(Term& term) const {
+  term.evaluate(alignment_.T_live_ref);  // always: the term is asked for its samples later
+  return term.numVisible() >= static_cast<std::size_t>(parameters_.loss.lost_points);
+}
+
+/// The geometric term, if enough of its points have depth in the live frame.
+GeometricTerm* LevelAligner::geometricTerm(int num_points) {
+  const GeometricPoints& points = task_.keyframe.geometricPoints();
+  if (!parameters_.geometry.geometric_term || points.size() == 0) return nullptr;
+  geometry_.emplace(points, static_cast<std::size_t>(num_points), task_.live, depth_warp_,
+                    parameters_);
+  geometry_->evaluate(alignment_.T_live_ref);
+  if (geometry_->numVisible() < static_cast<std::size_t>(parameters_.loss.lost_points)) {
+    return nullptr;
+  }
+  return &*geometry_;
+}
+
+/// Where depth alone is to tell the pose: what keeps it from sliding along walls. None when
+/// nothing is known about the motion.
+MotionPriorTerm* LevelAligner::motionPrior(GeometricTerm* geometry) {
+  const MotionUncertainty& uncertainty = task_.uncertainty;
+  if (geometry == nullptr || !(uncertainty.translation > 0.0 && uncertainty.rotation > 0.0)) {
+    return nullptr;
+  }
+  prior_.emplace(task_.T_live_ref, uncertainty, correlationFactor(*geometry));
+  return &*prior_;
+}
+
+/// Levels whose result is kept are finished with care.
+double LevelAligner::toleranceOf(Stage stage) const {
+  if (stage == Stage::kLast) return kLastTolerance;
+  return level_ > kShutterLevel ? parameters_.alignment.coarse_tolerance : 1.0;
+}
+
+/// Minimises the sum of the terms that there are.
+void LevelAligner::minimiseTerms(const LevelTerms& terms, Stage stage) {
+  terms_->clear();
+  for (CostTerm* term : {terms.image, terms.depth}) {
+    if (term != nullptr) terms_->push_back(term);
+  }
+  if (terms_->empty()) return;
+  const std::size_t num_measuring = terms_->size();
+  if (terms.prior != nullptr) terms_->push_back(terms.prior);
+  const double tolerance = toleranceOf(stage);
+  // Mutual information is rugged near its maximum. Where no SSD follows that mends it, no step
+  // goes untried.
+  const double trusted = parameters_.alignment.method == Method::kMi
+                             ? 0.0
+                             : tolerance * parameters_.alignment.trusted_step_pixels;
+  const Minimum minimum =
+      minimise(*terms_, alignment_.T_live_ref, static_cast<double>(points_.median_depth),
+               points_.pixel_motion, parameters_, tolerance, trusted);
+  alignment_.T_live_ref = minimum.T_live_ref;
+  alignment_.hessian = minimum.hessian;
+  record_.iterations += minimum.iterations;
+  record_.evaluations += minimum.evaluations;
+  record_.cost = minimum.cost / static_cast<double>(std::max<std::size_t>(1, points_.size()));
+  record_.line_search_milliseconds += minimum.line_search_milliseconds;
+  if (level_ == 0 && stage != Stage::kLeading) {
+    terms_->resize(num_measuring);
+    holdOpenDirections({*terms_, terms.intensities, points_, warp_.camera(), task_.expected},
+                       parameters_, alignment_);
+  }
+}
+
+double LevelAligner::share(std::size_t points) const {
+  return points_.size() > 0 ? static_cast<double>(points) / static_cast<double>(points_.size())
+                            : 0.0;
+}
+
+void LevelAligner::judgeDepth(const GeometricTerm& geometry) {
+  alignment_.depth_scale = geometry.scale();
+  alignment_.sees_depth = geometry.scale() <= parameters_.loss.lost_depth_scale;
+}
+
+void LevelAligner::alignByMutualInformation() {
+  MiTerm term(points_, task_.keyframe.level(level_).mi, task_.live.miImage(level_),
+              task_.live.miRange(level_), warp_, parameters_);
+  const Eigen::Isometry3d start = alignment_.T_live_ref;
+  alignment_.sees_image = false;
+  alignment_.sees_depth = false;
+  if (isEnoughInView(term)) {
+    LevelTerms terms;
+    terms.image = &term;
+    minimiseTerms(terms);
+    record_.visible = static_cast<int>(term.numVisible());
+    alignment_.overlap = share(term.numVisible());
+    alignment_.mutual_information = term.mutualInformation();
+    const MiEvidence evidence =
+        miEvidence(term.mutualInformation(), term.numVisible(), parameters_.mi.mi_bins);
+    alignment_.correlation = evidence.correlation;
+    // What decides about the frame is judged as SSD is.
+    const bool is_strong = level_ > 0 || evidence.correlation >= parameters_.loss.lost_correlation;
+    alignment_.sees_image = is_strong && evidence.deviations >= parameters_.mi.mi_significance;
+  }
+  if (alignment_.sees_image) return;
+  // Chance, not structure: its maximum means nothing. Depth may still know the way.
+  alignment_.T_live_ref = start;
+  if (GeometricTerm* geometry = geometricTerm(parameters_.geometry.geometric_points_dark)) {
+    LevelTerms terms;
+    terms.depth = geometry;
+    terms.prior = motionPrior(geometry);
+    minimiseTerms(terms);
+    judgeDepth(*geometry);
+  }
+}
+
+SsdTerm LevelAligner::intensityTerm(std::size_t num_points) const {
+  return SsdTerm(points_, num_points, task_.live.grey(level_),
+                 task_.live.isNormalised() ? &task_.live.contrast().level(level_) : nullptr, warp_,
+                 parameters_);
+}
+
+/// The iterations are done with few points, if they see enough. Returns what is left to do.
+LevelAligner::Stage LevelAligner::alignLeadingPoints() {
+  if (points_.num_leading == points_.size() || alignment_.isDepthOnly()) return Stage::kOnly;
+  SsdTerm term = intensityTerm(points_.num_leading);
+  if (!isEnoughInView(term) || !term.isSignificant()) return Stage::kOnly;
+  LevelTerms terms;
+  terms.image = &term;
+  terms.depth = geometricTerm(parameters_.geometry.geometric_points);
+  minimiseTerms(terms, Stage::kLeading);
+  return Stage::kLast;
+}
+
+void LevelAligner::alignBySsd() {
+  const Stage stage = alignLeadingPoints();
+  SsdTerm term = intensityTerm(points_.size());
+  alignment_.sees_image = isEnoughInView(term) && term.isSignificant();
+  const bool shows_enough = alignment_.sees_image && !alignment_.isDepthOnly();
+  GeometricTerm* geometry =
+      geometricTerm(shows_enough ? parameters_.geometry.geometric_points
+                                 : parameters_.geometry.geometric_points_dark);
+  const bool has_points =
+      term.numVisible() >= static_cast<std::size_t>(parameters_.loss.lost_points);
+  alignment_.sees_depth = false;
+  LevelTerms terms;
+  if (has_points) {
+    terms.image = &term;
+    terms.intensities = &term;
+  }
+  terms.depth = geometry;
+  if (!alignment_.sees_image) terms.prior = motionPrior(geometry);
+  minimiseTerms(terms, stage);
+  if (geometry != nullptr) judgeDepth(*geometry);
+  record_.visible = static_cast<int>(term.numVisible());
+  alignment_.overlap = share(term.numInView());
+  alignment_.residual_scale = term.scale();
+  alignment_.correlation = term.correlation();
+  alignment_.sees_image = alignment_.sees_image && term.isInformative() &&
+                          alignment_.correlation >= parameters_.loss.lost_correlation;
+  if (level_ == kShutterLevel && alignment_.sees_image) measureRows(term, geometry);
+}
+
+void LevelAligner::measureRows(SsdTerm& term, GeometricTerm* geometry) {
+  RowVelocities velocities;
+  velocities.live = twistPerPeriod(task_, alignment_.T_live_ref);
+  velocities.keyframe = task_.keyframe.twistPerPeriod();
+  velocities.T_live_ref = alignment_.T_live_ref;
+  const ShutterMeasurement measured =
+      measureShutter(points_, term, geometry, warp_.camera().height, velocities, parameters_);
+  alignment_.readout = measured.readout;
+  alignment_.depth_offset = measured.depth_offset;
+}
+
+}  // namespace mivo

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "core/alignment/align.h"
+#include "core/execution/recycled.h"
+#include "core/geometry/warp.h"
+#include "core/terms/geometric_term.h"
+#include "core/terms/mi_term.h"
+#include "core/terms/motion_prior_term.h"
+#include "core/terms/ssd_term.h"
+
+namespace mivo {
+
+/// One level of the descent: its warp, its terms, and what they found.
+class LevelAligner {
+ public:
+  /// Goes on from alignment.T_live_ref. Keeps references to all arguments.
+  LevelAligner(const AlignmentTask& task, int level, const Parameters& parameters,
+               Alignment& alignment, LevelRecord& record);
+
+  void run();
+
+ private:
+  /// Whether a level is one descent, or two of them: some points lead, all of them come last.
+  enum class Stage { kOnly, kLeading, kLast };
+
+  /// What is added up on a level; null: takes no part.
+  struct LevelTerms {
+    CostTerm* image = nullptr;
+    CostTerm* depth = nullptr;
+    CostTerm* prior = nullptr;
+    const SsdTerm* intensities = nullptr;  ///< the image's, if its residuals are grey levels
+  };
+
+  template <typename Term>
+  bool isEnoughInView(Term& term) const;
+  GeometricTerm* geometricTerm(int num_points);
+  MotionPriorTerm* motionPrior(GeometricTerm* geometry);
+  SsdTerm intensityTerm(std::size_t num_points) const;
+
+  void alignByMutualInformation();
+  void alignBySsd();
+  Stage alignLeadingPoints();
+  void judgeDepth(const GeometricTerm& geometry);
+  void minimiseTerms(const LevelTerms& terms, Stage stage = Stage::kOnly);
+  void measureRows(SsdTerm& term, GeometricTerm* geometry);
+  double toleranceOf(Stage stage) const;
+  double share(std::size_t points) const;
+
+  const AlignmentTask& task_;
+  int level_;
+  const Parameters& parameters_;
+  const ReferencePoints& points_;
+  RowMotion rows_;
+  Warp warp_;
+  Warp depth_warp_;
+  Alignment& alignment_;
+  LevelRecord& record_;
+  std::optional<GeometricTerm> geometry_;
+  std::optional<MotionPriorTerm> prior_;
+  Recycled<std::vector<CostTerm*>> terms_;
+};
+
+}  // namespace mivo

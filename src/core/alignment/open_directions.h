@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <vector>
+
+#include "core/alignment/align.h"
+#include "core/keyframe/reference_points.h"
+#include "core/terms/cost_term.h"
+#include "core/terms/ssd_term.h"
+#include "mivo/core/camera.h"
+#include "mivo/core/parameters.h"
+
+namespace mivo {
+
+/// A descent that has come to its end on the finest level.
+struct FinishedDescent {
+  const std::vector<CostTerm*>& terms;  ///< that measure the pose, at the end of the descent
+  const SsdTerm* image = nullptr;       ///< that of them whose residuals are grey levels, if any
+  const ReferencePoints& points;
+  const Camera& camera;  ///< of the level
+  const PoseExpectation& expected;
+};
+
+/// Finds the directions that the terms leave open, holds the pose in them where it is expected, and
+/// says how sure it is: writes pose, covariance, condition and open directions of the alignment.
+void holdOpenDirections(const FinishedDescent& descent, const Parameters& parameters,
+                        Alignment& alignment);
+
+}  // namespace mivo

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+
+#include "core/alignment/align.h"
+#include "core/images/frame_pyramid.h"
+#include "core/keyframe/keyframe_store.h"
+#include "core/odometry/odometry_state.h"
+#include "core/odometry/prediction.h"
+#include "mivo/core/camera.h"
+#include "mivo/core/parameters.h"
+
+namespace mivo {
+
+/// A frame, and what there is to compare it with.
+struct SearchInput {
+  const OdometryState& state;
+  const KeyframeStore& keyframes;
+  const FramePyramid& live;
+  const Camera& camera;
+  const Parameters& parameters;
+};
+
+/// A frame aligned with one of the keyframes, and why that cannot be believed; kNone: it can.
+struct Sight {
+  Alignment alignment;
+  std::size_t keyframe = 0;  ///< index in the store
+  TrackingReason reason = TrackingReason::kNone;
+};
+
+/// Aligns the frame with the current keyframe from the prediction, and judges the result. In doubt
+/// other starts are tried, and when it cannot be believed other keyframes, too.
+Sight findCamera(const SearchInput& input, const Prediction& prediction);
+
+}  // namespace mivo

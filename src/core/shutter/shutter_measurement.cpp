@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/shutter/shutter_measurement.h"
+
+namespace mivo {
+namespace {
+
+TermModel modelOf(CostTerm& term) {
+  TermModel result;
+  result.model = term.linearise(kScaleIsKept);
+  if (term.gradientCovariance(result.gradient_covariance) < kFewestBlocks) {
+    result.gradient_covariance = result.model.hessian;
+  }
+  return result;
+}
+
+}  // namespace
+
+ShutterMeasurement measureShutter(const ReferencePoints& points, SsdTerm& image,
+                                  GeometricTerm* geometry, double height,
+                                  const RowVelocities& velocities, const Parameters& parameters) {
+  ShutterMeasurement measurement;
+  const ShutterParameters& shutter = parameters.shutter;
+  if (shutter.rolling_shutter_estimation && shutter.rolling_shutter_readout == 0.0) {
+    measurement.readout = measureReadout(points, image.residuals(), image.samples().v, height,
+                                         image.scale(), velocities);
+  }
+  if (shutter.depth_time_offset_estimation && geometry != nullptr) {
+    // The two stand at one pose, be it a step before the last: the measurement allows for that.
+    measurement.depth_offset = measureDepthOffset(modelOf(image), modelOf(*geometry), velocities,
+                                                  static_cast<double>(points.median_depth));
+  }
+  return measurement;
+}
+
+}  // namespace mivo

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include "mivo/core/se3.h"
+
+namespace mivo {
+
+/// How the derivatives of keyframe and live frame agree. Noise gives the keyframe's derivatives a
+/// curvature in directions in which there is nothing to see; but the noise of the live frame is
+/// another one, so that sums of products of the two tell what both see.
+struct Agreement {
+  Matrix6 keyframe = Matrix6::Zero();  ///< sum of J Jᵀ, J by the keyframe
+  Matrix6 live = Matrix6::Zero();      ///< sum of L Lᵀ, L by the live frame
+  Matrix6 both = Matrix6::Zero();      ///< sum of J Lᵀ, symmetric part
+  int points = 0;                      ///< that were compared
+
+  void add(const Vector6& by_keyframe, const Vector6& by_live) {
+    keyframe += by_keyframe * by_keyframe.transpose();
+    live += by_live * by_live.transpose();
+    both += 0.5 * (by_keyframe * by_live.transpose() + by_live * by_keyframe.transpose());
+    ++points;
+  }
+};
+
+}  // namespace mivo

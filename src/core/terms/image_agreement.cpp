@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/terms/image_agreement.h"
+
+#include <algorithm>
+
+#include "core/execution/recycled.h"
+#include "core/images/pixel_access.h"
+#include "core/kernels/kernels.h"
+
+namespace mivo {
+namespace {
+
+// So many gradients tell agreement from chance, which is about one over the square root.
+constexpr std::size_t kPoints = 2048;
+// Clipped pixels have been left out of `visible`.
+constexpr float kNeverSaturated = 1e9F;
+
+/// Live pixels of some points, moved by whole pixels, and what the image shows there.
+struct Neighbour {
+  std::vector<float> u, v, visible, value;
+};
+
+struct Workspace {
+  std::vector<std::size_t> index;
+  Neighbour left, right, above, below;
+};
+
+void sample(const LiveImage& image, const Workspace& work, const LiveSamples& samples, float du,
+            float dv, Neighbour& neighbour) {
+  const std::size_t n = work.index.size();
+  for (std::vector<float>* array :
+       {&neighbour.u, &neighbour.v, &neighbour.visible, &neighbour.value}) {
+    array->assign(n, 0.0F);
+  }
+  const auto right = static_cast<float>(image.grey.cols - 1);
+  const auto bottom = static_cast<float>(image.grey.rows - 1);
+  for (std::size_t i = 0; i < n; ++i) {
+    const float u = samples.u[work.index[i]] + du;
+    const float v = samples.v[work.index[i]] + dv;
+    if (!(u >= 0.0F && u < right && v >= 0.0F && v < bottom)) continue;
+    neighbour.u[i] = u;
+    neighbour.v[i] = v;
+    neighbour.visible[i] = 1.0F;
+  }
+  const kernels::Kernels& kernels = kernels::active();
+  if (image.contrast != nullptr) {
+    kernels.sampleNormalised(view(image.grey), view(*image.contrast), kNeverSaturated,
+                             neighbour.u.data(), neighbour.v.data(), neighbour.visible.data(), n,
+                             neighbour.value.data());
+  } else {
+    kernels.sampleIntensity(view(image.grey), neighbour.u.data(), neighbour.v.data(),
+                            neighbour.visible.data(), n, neighbour.value.data());
+  }
+}
+
+/// Derivative of the live intensity with respect to the increment, which moves the keyframe's point
+/// X to exp(w) X + v before it is warped: gradient . d pixel / d Y . R [1, -skew(X)], Y = T X.
+Vector6 liveDerivative(const Eigen::Vector3d& point, const Eigen::Isometry3d& T_live_ref,
+                       const Camera& camera, const Eigen::Vector2d& gradient) {
+  const Eigen::Vector3d seen = T_live_ref * point;
+  const double x = seen.x() / seen.z();
+  const double y = seen.y() / seen.z();
+  const Eigen::Vector3d by_seen(
+      gradient.x() * camera.fx / seen.z(), gradient.y() * camera.fy / seen.z(),
+      -(gradient.x() * camera.fx * x + gradient.y() * camera.fy * y) / seen.z());
+  const Eigen::Vector3d by_point = T_live_ref.linear().transpose() * by_seen;
+  Vector6 derivative;
+  derivative << by_point, point.cross(by_point);
+  return derivative;
+}
+
+}  // namespace
+
+Agreement imageAgreement(const ReferencePoints& points, const LiveImage& image,
+                         const LiveSamples& samples, const std::vector<float>& visible,
+                         const Warp& warp, const Eigen::Isometry3d& T_live_ref) {
+  Recycled<Workspace> work;
+  work->index.clear();
+  const std::size_t stride = std::max<std::size_t>(1, visible.size() / kPoints);
+  for (std::size_t i = 0; i < visible.size(); i += stride) {
+    if (visible[i] != 0.0F) work->index.push_back(i);
+  }
+  sample(image, *work, samples, -1.0F, 0.0F, work->left);
+  sample(image, *work, samples, 1.0F, 0.0F, work->right);
+  sample(image, *work, samples, 0.0F, -1.0F, work->above);
+  sample(image, *work, samples, 0.0F, 1.0F, work->below);
+  Agreement agreement;
+  for (std::size_t k = 0; k < work->index.size(); ++k) {
+    if (work->left.visible[k] * work->right.visible[k] * work->above.visible[k] *
+            work->below.visible[k] ==
+        0.0F) {
+      continue;
+    }
+    const std::size_t i = work->index[k];
+    const double half = 0.5 * static_cast<double>(points.contrast[i]);
+    const Eigen::Vector2d gradient(
+        half * static_cast<double>(work->right.value[k] - work->left.value[k]),
+        half * static_cast<double>(work->below.value[k] - work->above.value[k]));
+    const Eigen::Vector3d point =
+        Eigen::Vector3f(points.x[i], points.y[i], points.z[i]).cast<double>();
+    Vector6 by_keyframe;
+    for (int j = 0; j < 6; ++j) {
+      by_keyframe[j] = static_cast<double>(points.jacobian[static_cast<std::size_t>(j)][i]);
+    }
+    agreement.add(by_keyframe, liveDerivative(point, T_live_ref, warp.camera(), gradient));
+  }
+  return agreement;
+}
+
+}  // namespace mivo
