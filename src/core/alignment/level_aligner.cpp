@@ -15,6 +15,8 @@ namespace {
 
 // The shutter is measured where noise is already averaged, but rows still differ.
 constexpr int kShutterLevel = 1;
+// Coarser levels blur away what could be seen.
+constexpr int kCoarsestAsked = 2;
 // Where few points have led the way all of them have one short step left, and need not try it.
 constexpr double kLastTolerance = 4.0;
 
@@ -125,9 +127,37 @@ void LevelAligner::minimiseTerms(const LevelTerms& terms, Stage stage) {
   record_.line_search_milliseconds += minimum.line_search_milliseconds;
   if (level_ == 0 && stage != Stage::kLeading) {
     terms_->resize(num_measuring);
-    holdOpenDirections({*terms_, terms.intensities, points_, warp_.camera(), task_.expected},
-                       parameters_, alignment_);
+    holdOpenDirections(terms.intensities);
   }
+}
+
+void LevelAligner::holdOpenDirections(const SsdTerm* intensities) {
+  const auto add_coarser = [&](const Eigen::Isometry3d& T_live_ref,
+                               std::vector<TermCurvature>& curvatures) {
+    Alignment there = alignment_;
+    there.T_live_ref = T_live_ref;
+    LevelRecord record;
+    for (int l = 1; l <= std::min(kCoarsestAsked, task_.keyframe.numLevels() - 1); ++l) {
+      curvatures.push_back(LevelAligner(task_, l, parameters_, there, record).imageCurvature());
+    }
+  };
+  mivo::holdOpenDirections(
+      {*terms_, intensities, points_, warp_.camera(), add_coarser, task_.expected}, parameters_,
+      alignment_);
+}
+
+TermCurvature LevelAligner::imageCurvature() {
+  const auto curvatureOf = [&](CostTerm& term) {
+    term.evaluate(alignment_.T_live_ref);
+    return TermCurvature{term.linearise(kScaleIsKept).hessian, term.agreement()};
+  };
+  if (record_.mutual_information) {
+    MiTerm term(points_, task_.keyframe.level(level_).mi, task_.live.miImage(level_),
+                task_.live.miRange(level_), warp_, parameters_);
+    return curvatureOf(term);
+  }
+  SsdTerm term = intensityTerm(points_.size());
+  return curvatureOf(term);
 }
 
 double LevelAligner::share(std::size_t points) const {

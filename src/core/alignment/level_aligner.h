@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/alignment/align.h"
+#include "core/alignment/observability.h"
 #include "core/execution/recycled.h"
 #include "core/geometry/warp.h"
 #include "core/terms/geometric_term.h"
@@ -22,6 +23,9 @@ class LevelAligner {
                Alignment& alignment, LevelRecord& record);
 
   void run();
+
+  /// What the image of this level knows about the pose of the alignment, see confirm().
+  TermCurvature imageCurvature();
 
  private:
   /// Whether a level is one descent, or two of them: some points lead, all of them come last.
@@ -46,6 +50,7 @@ class LevelAligner {
   Stage alignLeadingPoints();
   void judgeDepth(const GeometricTerm& geometry);
   void minimiseTerms(const LevelTerms& terms, Stage stage = Stage::kOnly);
+  void holdOpenDirections(const SsdTerm* intensities);
   void measureRows(SsdTerm& term, GeometricTerm* geometry);
   double toleranceOf(Stage stage) const;
   double share(std::size_t points) const;

@@ -14,15 +14,10 @@ namespace {
 constexpr double kLeastAgreement = 0.15;
 // A motion belongs to an open direction when so much of the direction is along it.
 constexpr double kPartOfDirection = 0.4;
+// A curvature is none when it is smaller than this share of the strongest: rounding.
+constexpr double kNoCurvature = 1e-9;
 
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
-
-/// Multiplies increments measured in median depths to give those in metres.
-Vector6 scaleOf(double length) {
-  Vector6 scale = Vector6::Ones();
-  scale.head<3>().setConstant(length);
-  return scale;
-}
 
 Matrix within(const Matrix6& matrix, const Matrix& axes, const Vector6& scale) {
   const Matrix6 scaled = scale.asDiagonal() * matrix * scale.asDiagonal();
@@ -35,10 +30,14 @@ Matrix within(const Matrix6& matrix, const Matrix& axes, const Vector6& scale) {
 Matrix confirmed(const TermCurvature& term, const Matrix& axes, const Vector6& scale) {
   const Matrix H = within(term.hessian, axes, scale);
   const Matrix none = Matrix::Zero(H.rows(), H.cols());
-  const Matrix mean = within(0.5 * (term.agreement.keyframe + term.agreement.live), axes, scale);
-  const Matrix both = within(term.agreement.both, axes, scale);
+  const Matrix by_keyframe = within(term.agreement.keyframe, axes, scale);
+  const Matrix by_live = within(term.agreement.live, axes, scale);
+  if (!(by_keyframe.trace() > 0.0 && by_live.trace() > 0.0) || !H.allFinite()) return none;
+  // A blurred or darker live image has smaller derivatives throughout: no disagreement.
+  const double gain = std::sqrt(by_keyframe.trace() / by_live.trace());
+  const Matrix mean = 0.5 * (by_keyframe + gain * gain * by_live);
+  const Matrix both = gain * within(term.agreement.both, axes, scale);
   const double size = mean.trace();
-  if (!(size > 0.0) || !H.allFinite()) return none;
   // Next to nothing in a direction is nothing; the bound keeps the factor regular.
   const Matrix regular = mean + 1e-12 * size * Matrix::Identity(H.rows(), H.cols());
   const Eigen::SelfAdjointEigenSolver<Matrix> means(regular);
@@ -58,111 +57,110 @@ Matrix confirmed(const TermCurvature& term, const Matrix& axes, const Vector6& s
   return root * R * root;
 }
 
-void findOpen(double min_condition, Observability& result) {
-  const double least = min_condition * result.curvature.maxCoeff();
-  for (int i = 0; i < 6; ++i) {
-    const double curvature = result.curvature[i];
-    result.is_open[static_cast<std::size_t>(i)] = !(curvature > least && curvature > 0.0);
-  }
-}
-
 }  // namespace
 
-bool Observability::hasOpen() const {
-  return std::any_of(is_open.begin(), is_open.end(), [](bool open) { return open; });
-}
-
-double Observability::condition() const {
-  const double strongest = curvature.maxCoeff();
-  return strongest > 0.0 ? curvature.minCoeff() / strongest : 0.0;
-}
-
-Matrix6 Observability::openProjector() const {
-  Matrix6 projector = Matrix6::Zero();
-  for (int i = 0; i < 6; ++i) {
-    if (is_open[static_cast<std::size_t>(i)]) projector += axes.col(i) * axes.col(i).transpose();
-  }
-  const Vector6 scale = scaleOf(length);
-  return scale.asDiagonal() * projector * scale.cwiseInverse().asDiagonal();
-}
-
-Matrix6 Observability::covarianceOfSeen(const Matrix6& of_gradient) const {
-  const Vector6 scale = scaleOf(length);
-  Matrix6 inverse = Matrix6::Zero();
-  for (int i = 0; i < 6; ++i) {
-    if (is_open[static_cast<std::size_t>(i)]) continue;
-    inverse += axes.col(i) * axes.col(i).transpose() / curvature[i];
-  }
-  const Matrix6 unscaled = scale.asDiagonal() * inverse * scale.asDiagonal();
-  return unscaled * of_gradient * unscaled;
-}
-
-Matrix6 Observability::informationOfSeen(const Matrix6& of_gradient) const {
-  const Vector6 scale = scaleOf(length);
-  const Vector6 inverse = scale.cwiseInverse();
-  const Matrix6 covariance =
-      inverse.asDiagonal() * covarianceOfSeen(of_gradient) * inverse.asDiagonal();
-  Matrix seen(6, 6);
-  int count = 0;
-  for (int i = 0; i < 6; ++i) {
-    if (!is_open[static_cast<std::size_t>(i)]) seen.col(count++) = axes.col(i);
-  }
-  if (count == 0) return Matrix6::Zero();
-  const Matrix basis = seen.leftCols(count);
-  const Matrix of_basis = basis.transpose() * covariance * basis;
-  const Matrix information = of_basis.ldlt().solve(Matrix(Matrix::Identity(count, count)));
-  const Matrix6 scaled = basis * information * basis.transpose();
-  return inverse.asDiagonal() * scaled * inverse.asDiagonal();
-}
-
-Observability observe(const Matrix6& hessian, double length, double min_condition) {
-  Observability result;
-  result.length = length;
-  if (!hessian.allFinite()) return result;
-  const Vector6 scale = scaleOf(length);
+Observability::Observability(const Matrix6& hessian, const ObservabilityInput& input)
+    : scale_(Vector6::Ones()), open_deviations_(input.open_deviations) {
+  scale_.head<3>().setConstant(input.length);
+  const Vector6 inverse = scale_.cwiseInverse();
+  gradient_covariance_ = scale_.asDiagonal() * input.gradient_covariance * scale_.asDiagonal();
+  expected_covariance_ = inverse.asDiagonal() * input.expected_covariance * inverse.asDiagonal();
+  if (!hessian.allFinite()) return;
   const Eigen::SelfAdjointEigenSolver<Matrix6> solver(
-      Matrix6(scale.asDiagonal() * hessian * scale.asDiagonal()));
-  result.axes = solver.eigenvectors();
-  result.curvature = solver.eigenvalues();
-  findOpen(min_condition, result);
-  return result;
+      Matrix6(scale_.asDiagonal() * hessian * scale_.asDiagonal()));
+  axes_ = solver.eigenvectors();
+  curvature_ = solver.eigenvalues();
+  findOpen();
 }
 
-Observability confirm(const Observability& first, const std::array<bool, 6>& in_doubt,
-                      const std::vector<TermCurvature>& terms, double min_condition) {
-  Matrix all(6, 6);
+void Observability::findOpen() {
+  const double strongest = curvature_.maxCoeff();
+  for (int i = 0; i < 6; ++i) {
+    const double h = curvature_[i];
+    const double variance = axes_.col(i).dot(gradient_covariance_ * axes_.col(i)) / (h * h);
+    const double expected = axes_.col(i).dot(expected_covariance_ * axes_.col(i));
+    const bool is_seen =
+        h > kNoCurvature * strongest && variance <= open_deviations_ * open_deviations_ * expected;
+    is_open_[static_cast<std::size_t>(i)] = !is_seen;
+  }
+}
+
+void Observability::confirm(const std::array<bool, 6>& in_doubt,
+                            const std::vector<TermCurvature>& terms) {
+  Matrix doubted(6, 6);
   std::array<int, 6> place{};
   int count = 0;
   for (int i = 0; i < 6; ++i) {
     if (!in_doubt[static_cast<std::size_t>(i)]) continue;
     place[static_cast<std::size_t>(count)] = i;
-    all.col(count++) = first.axes.col(i);
+    doubted.col(count++) = axes_.col(i);
   }
-  if (count == 0) return first;
-  const Matrix doubted = all.leftCols(count);
-  const Vector6 scale = scaleOf(first.length);
+  if (count == 0) return;
+  doubted.conservativeResize(6, count);
   Matrix sum = Matrix::Zero(count, count);
-  for (const TermCurvature& term : terms) sum += confirmed(term, doubted, scale);
+  for (const TermCurvature& term : terms) sum += confirmed(term, doubted, scale_);
   const Eigen::SelfAdjointEigenSolver<Matrix> solver(sum);
   const Matrix turned = doubted * solver.eigenvectors();
-  Observability result = first;
   for (int k = 0; k < count; ++k) {
     const int i = place[static_cast<std::size_t>(k)];
-    result.axes.col(i) = turned.col(k);
-    result.curvature[i] = solver.eigenvalues()[k];
+    axes_.col(i) = turned.col(k);
+    curvature_[i] = solver.eigenvalues()[k];
   }
-  findOpen(min_condition, result);
-  return result;
+  findOpen();
 }
 
-Directions openDirections(const Observability& observability, const Eigen::Isometry3d& T_live_ref) {
+bool Observability::hasOpen() const {
+  return std::any_of(is_open_.begin(), is_open_.end(), [](bool open) { return open; });
+}
+
+double Observability::condition() const {
+  const double strongest = curvature_.maxCoeff();
+  return strongest > 0.0 ? curvature_.minCoeff() / strongest : 0.0;
+}
+
+Matrix6 Observability::openProjector() const {
+  Matrix6 projector = Matrix6::Zero();
+  for (int i = 0; i < 6; ++i) {
+    if (is_open_[static_cast<std::size_t>(i)]) projector += axes_.col(i) * axes_.col(i).transpose();
+  }
+  return scale_.asDiagonal() * projector * scale_.cwiseInverse().asDiagonal();
+}
+
+Matrix6 Observability::scaledCovarianceOfSeen() const {
+  Matrix6 inverse = Matrix6::Zero();
+  for (int i = 0; i < 6; ++i) {
+    if (is_open_[static_cast<std::size_t>(i)]) continue;
+    inverse += axes_.col(i) * axes_.col(i).transpose() / curvature_[i];
+  }
+  return inverse * gradient_covariance_ * inverse;
+}
+
+Matrix6 Observability::covarianceOfSeen() const {
+  return scale_.asDiagonal() * scaledCovarianceOfSeen() * scale_.asDiagonal();
+}
+
+Matrix6 Observability::informationOfSeen() const {
+  Matrix seen(6, 6);
+  int count = 0;
+  for (int i = 0; i < 6; ++i) {
+    if (!is_open_[static_cast<std::size_t>(i)]) seen.col(count++) = axes_.col(i);
+  }
+  if (count == 0) return Matrix6::Zero();
+  seen.conservativeResize(6, count);
+  const Matrix covariance = seen.transpose() * scaledCovarianceOfSeen() * seen;
+  const Matrix information = covariance.ldlt().solve(Matrix(Matrix::Identity(count, count)));
+  const Matrix6 scaled = seen * information * seen.transpose();
+  const Vector6 inverse = scale_.cwiseInverse();
+  return inverse.asDiagonal() * scaled * inverse.asDiagonal();
+}
+
+Directions Observability::openDirections(const Eigen::Isometry3d& T_live_ref) const {
   Directions directions{};
-  const Vector6 scale = scaleOf(observability.length);
   const Matrix6 to_camera = adjoint(T_live_ref);
   for (int i = 0; i < 6; ++i) {
-    if (!observability.is_open[static_cast<std::size_t>(i)]) continue;
-    const Vector6 axis = scale.cwiseInverse().cwiseProduct(
-        to_camera * scale.cwiseProduct(observability.axes.col(i)));
+    if (!is_open_[static_cast<std::size_t>(i)]) continue;
+    const Vector6 increment = scale_.cwiseProduct(axes_.col(i));
+    const Vector6 axis = scale_.cwiseInverse().cwiseProduct(to_camera * increment);
     const Vector6 part = axis.cwiseAbs() / axis.norm();
     for (int k = 0; k < 6; ++k) {
       if (part[k] >= kPartOfDirection) directions[static_cast<std::size_t>(k)] = true;

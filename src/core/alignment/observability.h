@@ -16,38 +16,60 @@ struct TermCurvature {
   Agreement agreement;
 };
 
+/// What the sight of a frame is held against.
+struct ObservabilityInput {
+  Matrix6 gradient_covariance = Matrix6::Identity();  ///< of the sum of the terms, nats
+  /// Of the increment, as the motion so far expects it: m and rad.
+  Matrix6 expected_covariance = Matrix6::Identity();
+  double length = 1.0;           ///< m, median depth, that translations are measured in
+  double open_deviations = 1.0;  ///< see the parameter
+};
+
 /// The directions of the increment by what image and depth say about them. One spectrum decides
 /// what is open and how sure the pose is in the others. Directions are orthonormal when translation
 /// is measured in median depths.
-struct Observability {
-  Matrix6 axes = Matrix6::Identity();   ///< columns, in that measure
-  Vector6 curvature = Vector6::Zero();  ///< along them: of noise nothing is left in it, nats
-  std::array<bool, 6> is_open = {true, true, true, true, true, true};
-  double length = 1.0;  ///< m, median depth
+class Observability {
+ public:
+  /// Directions of the raw Hessian of all terms together.
+  Observability(const Matrix6& hessian, const ObservabilityInput& input);
 
+  /// Looks again at the directions in doubt: keeps of each term's curvature in them what keyframe
+  /// and live frame agree on.
+  void confirm(const std::array<bool, 6>& in_doubt, const std::vector<TermCurvature>& terms);
+
+  /// Orthonormal columns, and the curvature along them, nats.
+  const Matrix6& axes() const { return axes_; }
+  const Vector6& curvature() const { return curvature_; }
+
+  /// Open is what is fixed worse than by the motion so far, or by noise alone.
+  const std::array<bool, 6>& isOpen() const { return is_open_; }
   bool hasOpen() const;
-  /// Weakest over strongest curvature.
-  double condition() const;
-  /// Projects increments onto the open directions along the others: zero when all are seen.
+
+  double condition() const;  ///< weakest over strongest curvature
+
+  /// Projects increments onto the open directions along the others; zero when all are seen.
   Matrix6 openProjector() const;
-  /// H⁻¹ C H⁻¹ in the directions that are seen, with the covariance C of the gradient; zero in the
-  /// others.
-  Matrix6 covarianceOfSeen(const Matrix6& of_gradient) const;
-  /// Its inverse there, zero in the others.
-  Matrix6 informationOfSeen(const Matrix6& of_gradient) const;
+
+  /// H⁻¹ C H⁻¹ in the directions that are seen, with the covariance C of the gradient, and its
+  /// inverse there; zero in the others.
+  Matrix6 covarianceOfSeen() const;
+  Matrix6 informationOfSeen() const;
+
+  /// Which motions of the camera lie in the open directions: those that have a large part in one.
+  /// @param T_live_ref the increments' pose: they are told in the axes of the live camera.
+  Directions openDirections(const Eigen::Isometry3d& T_live_ref) const;
+
+ private:
+  void findOpen();
+  Matrix6 scaledCovarianceOfSeen() const;
+
+  Vector6 scale_;                // multiplies increments in median depths to give those in metres
+  Matrix6 gradient_covariance_;  // scaled
+  Matrix6 expected_covariance_;  // scaled
+  double open_deviations_;
+  Matrix6 axes_ = Matrix6::Identity();
+  Vector6 curvature_ = Vector6::Zero();
+  std::array<bool, 6> is_open_ = {true, true, true, true, true, true};
 };
-
-/// Directions of the raw Hessian of all terms together. Open is what has less than `min_condition`
-/// of the strongest curvature.
-Observability observe(const Matrix6& hessian, double length, double min_condition);
-
-/// Looks again at those directions of `first` that are in doubt: keeps of each term's curvature in
-/// them what keyframe and live frame agree on. @param in_doubt by direction of `first`.
-Observability confirm(const Observability& first, const std::array<bool, 6>& in_doubt,
-                      const std::vector<TermCurvature>& terms, double min_condition);
-
-/// Which motions of the camera lie in the open directions: those that have a large part in one.
-/// @param T_live_ref the increments' pose: they are told in the axes of the live camera.
-Directions openDirections(const Observability& observability, const Eigen::Isometry3d& T_live_ref);
 
 }  // namespace mivo

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "core/alignment/minimise.h"
-#include "core/alignment/observability.h"
 #include "core/alignment/pose_covariance.h"
 #include "core/execution/recycled.h"
 
@@ -36,32 +35,16 @@ std::array<bool, 6> directionsInDoubt(const Observability& seen, const FinishedD
     return doubt;
   }
   Vector6 scale = Vector6::Ones();
-  scale.head<3>().setConstant(seen.length);
-  const double scale_of_residuals = descent.image->scale();
-  const double per_curvature = scale_of_residuals * scale_of_residuals /
-                               (kMeanWeight * static_cast<double>(descent.points.size()));
+  scale.head<3>().setConstant(static_cast<double>(descent.points.median_depth));
+  const double residual = descent.image->scale();
+  const double per_curvature =
+      residual * residual / (kMeanWeight * static_cast<double>(descent.points.size()));
   for (int i = 0; i < 6; ++i) {
-    const double pixels = pixelsOf(scale.cwiseProduct(seen.axes.col(i)), descent.points);
-    const double gradient = std::sqrt(std::max(0.0, seen.curvature[i]) * per_curvature);
+    const double pixels = pixelsOf(scale.cwiseProduct(seen.axes().col(i)), descent.points);
+    const double gradient = std::sqrt(std::max(0.0, seen.curvature()[i]) * per_curvature);
     doubt[static_cast<std::size_t>(i)] = !(gradient > kNoiseGradient * pixels);
   }
   return doubt;
-}
-
-Observability lookAt(const FinishedDescent& descent, const Matrix6& hessian, double length,
-                     double min_condition, const Eigen::Isometry3d& T_live_ref) {
-  const Observability first = observe(hessian, length, min_condition);
-  const std::array<bool, 6> doubt = directionsInDoubt(first, descent);
-  if (std::none_of(doubt.begin(), doubt.end(), [](bool is_in_doubt) { return is_in_doubt; })) {
-    return first;
-  }
-  Recycled<std::vector<TermCurvature>> curvatures;
-  curvatures->clear();
-  for (CostTerm* term : descent.terms) {
-    term->evaluate(T_live_ref);
-    curvatures->push_back({term->linearise(kScaleIsKept).hessian, term->agreement()});
-  }
-  return confirm(first, doubt, *curvatures, min_condition);
 }
 
 /// Covariance of the gradient, of residuals that err together; the Hessian stands for it where that
@@ -78,26 +61,55 @@ Matrix6 gradientCovariance(const FinishedDescent& descent, const Matrix6& hessia
   return static_cast<double>(blocks) / (blocks - 6.0) * of_gradient;
 }
 
-/// Most probable increment for the increment to the expected pose, given that the descent's end is
-/// right where it is measured.
+/// Covariance of the increment as the motion so far expects it. The keyframe's own error is in both
+/// poses, and none of the increment.
+Matrix6 expectedCovariance(const PoseExpectation& expected) {
+  if (!expected.is_known) return guessCovariance();
+  const Matrix6 to_increment = adjoint(expected.T_live_ref.inverse());
+  return positivePart(to_increment * expected.covariance * to_increment.transpose() -
+                      expected.keyframe_covariance);
+}
+
+Observability lookAt(const FinishedDescent& descent, const Matrix6& expected_covariance,
+                     const Parameters& parameters, const Alignment& alignment) {
+  ObservabilityInput input;
+  input.gradient_covariance = gradientCovariance(descent, alignment.hessian);
+  input.expected_covariance = expected_covariance;
+  input.length = static_cast<double>(descent.points.median_depth);
+  input.open_deviations = parameters.loss.open_deviations;
+  Observability seen(alignment.hessian, input);
+  const std::array<bool, 6> doubt = directionsInDoubt(seen, descent);
+  if (std::none_of(doubt.begin(), doubt.end(), [](bool is_in_doubt) { return is_in_doubt; })) {
+    return seen;
+  }
+  Recycled<std::vector<TermCurvature>> curvatures;
+  curvatures->clear();
+  for (CostTerm* term : descent.terms) {
+    term->evaluate(alignment.T_live_ref);
+    curvatures->push_back({term->linearise(kScaleIsKept).hessian, term->agreement()});
+  }
+  const Observability before = seen;
+  seen.confirm(doubt, *curvatures);
+  if (!seen.hasOpen()) return seen;
+  descent.add_coarser(alignment.T_live_ref, *curvatures);
+  seen = before;
+  seen.confirm(doubt, *curvatures);
+  return seen;
+}
+
+/// Most probable increment, given where the pose is expected, and that the descent's end is right
+/// in the directions that are seen.
 struct Held {
   Vector6 increment = Vector6::Zero();
   Matrix6 covariance;
 };
 
-Held holdAtExpected(const PoseExpectation& expected, const Eigen::Isometry3d& T_live_ref,
-                    const Matrix6& measured_information) {
+Held holdAtExpected(const PoseExpectation& expected, const Matrix6& expected_covariance,
+                    const Eigen::Isometry3d& T_live_ref, const Observability& seen) {
+  const Matrix6 information = expected_covariance.ldlt().solve(Matrix6(Matrix6::Identity()));
   Held held;
-  if (!expected.is_known) {
-    held.covariance = (measured_information + Matrix6(guessCovariance().inverse())).inverse();
-    return held;
-  }
-  const Matrix6 to_increment = adjoint(expected.T_live_ref.inverse());
-  // The keyframe's own error is in both poses, and none of the increment.
-  const Matrix6 covariance = positivePart(
-      to_increment * expected.covariance * to_increment.transpose() - expected.keyframe_covariance);
-  const Matrix6 information = covariance.ldlt().solve(Matrix6(Matrix6::Identity()));
-  held.covariance = (measured_information + information).inverse();
+  held.covariance = (seen.informationOfSeen() + information).inverse();
+  if (!expected.is_known) return held;
   const Vector6 to_expected = localCoordinates(expected.T_live_ref.inverse() * T_live_ref);
   held.increment = held.covariance * (information * to_expected);
   return held;
@@ -117,26 +129,25 @@ void seekInSeenDirections(const FinishedDescent& descent, const Matrix6& open,
 
 void holdOpenDirections(const FinishedDescent& descent, const Parameters& parameters,
                         Alignment& alignment) {
-  const auto length = static_cast<double>(descent.points.median_depth);
-  const Observability seen = lookAt(descent, alignment.hessian, length,
-                                    parameters.loss.degraded_curvature, alignment.T_live_ref);
-  const Matrix6 of_gradient = gradientCovariance(descent, alignment.hessian);
+  const Matrix6 expected_covariance = expectedCovariance(descent.expected);
+  const Observability seen = lookAt(descent, expected_covariance, parameters, alignment);
   alignment.condition = seen.condition();
   alignment.has_open_directions = seen.hasOpen();
   const double angle = kModelErrorPixels / descent.camera.fx;
-  const Matrix6 model_error = diagonalCovariance(angle * length, angle);
+  const Matrix6 model_error =
+      diagonalCovariance(angle * static_cast<double>(descent.points.median_depth), angle);
   if (!alignment.has_open_directions) {
-    alignment.covariance = seen.covarianceOfSeen(of_gradient) + model_error;
+    alignment.covariance = seen.covarianceOfSeen() + model_error;
     return;
   }
   const Held held =
-      holdAtExpected(descent.expected, alignment.T_live_ref, seen.informationOfSeen(of_gradient));
+      holdAtExpected(descent.expected, expected_covariance, alignment.T_live_ref, seen);
   alignment.covariance = held.covariance + model_error;
   alignment.T_live_ref = orthonormalised(alignment.T_live_ref * retract(held.increment).inverse());
   if (pixelsOf(held.increment, descent.points) > kNoticeablePixels) {
     seekInSeenDirections(descent, seen.openProjector(), parameters, alignment);
   }
-  alignment.open_directions = openDirections(seen, alignment.T_live_ref);
+  alignment.open_directions = seen.openDirections(alignment.T_live_ref);
   const Matrix6 to_camera = adjoint(alignment.T_live_ref);
   alignment.open_projector = to_camera * seen.openProjector() * to_camera.inverse();
 }

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "core/alignment/align.h"
+#include "core/alignment/observability.h"
 #include "core/keyframe/reference_points.h"
 #include "core/terms/cost_term.h"
 #include "core/terms/ssd_term.h"
@@ -18,6 +20,10 @@ struct FinishedDescent {
   const SsdTerm* image = nullptr;       ///< that of them whose residuals are grey levels, if any
   const ReferencePoints& points;
   const Camera& camera;  ///< of the level
+  /// What the images of coarser levels say at a pose; asked only where the finest leaves directions
+  /// open, for blur and noise hide there what is seen above.
+  std::function<void(const Eigen::Isometry3d& T_live_ref, std::vector<TermCurvature>& curvatures)>
+      add_coarser;
   const PoseExpectation& expected;
 };
 
