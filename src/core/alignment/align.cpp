@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "core/alignment/level_aligner.h"
+#include "core/alignment/pose_covariance.h"
 
 namespace mivo {
 namespace {
@@ -21,6 +22,17 @@ void judgeContrast(const AlignmentTask& task, const Parameters& parameters, Alig
 }
 
 }  // namespace
+
+Matrix6 PoseExpectation::incrementCovariance() const {
+  if (!is_known) return guessCovariance();
+  const Matrix6 to_increment = adjoint(T_live_ref.inverse());
+  return positivePart(to_increment * covariance * to_increment.transpose() - keyframe_covariance);
+}
+
+Matrix6 PoseExpectation::cameraCovariance() const {
+  const Matrix6 to_camera = adjoint(T_live_ref);
+  return to_camera * incrementCovariance() * to_camera.transpose();
+}
 
 Alignment align(const AlignmentTask& task, const Parameters& parameters) {
   Alignment alignment;

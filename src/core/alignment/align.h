@@ -24,6 +24,11 @@ struct PoseExpectation {
   /// m and rad, in one world.
   Matrix6 covariance = Matrix6::Identity();
   Matrix6 keyframe_covariance = Matrix6::Zero();
+
+  /// Of the pose against the keyframe, whose own error is in both: in the axes of the expected
+  /// camera, and as that of the increment.
+  Matrix6 cameraCovariance() const;
+  Matrix6 incrementCovariance() const;
 };
 
 /// How the live camera has moved since the frame before it.
@@ -44,10 +49,11 @@ struct AlignmentTask {
   /// Contrast of the last view that could be compared by its image, see contrastInView(); less than
   /// the keyframe's: that counts.
   double last_lit_contrast = 0.0;
-  /// Of the start, if it was predicted from a known velocity; 0: not known.
-  MotionUncertainty uncertainty = {};
   /// Holds the pose in the directions that image and depth leave open.
   PoseExpectation expected = {};
+  /// Whether it also holds it where a coarse level sees little. Not when the camera is looked for
+  /// elsewhere than expected.
+  bool holds_coarse_levels = false;
 };
 
 /// Result of aligning one frame with a keyframe.

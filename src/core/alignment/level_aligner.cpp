@@ -15,6 +15,9 @@ namespace {
 
 // The shutter is measured where noise is already averaged, but rows still differ.
 constexpr int kShutterLevel = 1;
+// The pixels of a level share what light, blur and depth err: mutual information counts about so
+// many times what it knows.
+constexpr double kMiCountsTimes = 8.0;
 // Coarser levels blur away what could be seen.
 constexpr int kCoarsestAsked = 2;
 // Where few points have led the way all of them have one short step left, and need not try it.
@@ -84,14 +87,11 @@ GeometricTerm* LevelAligner::geometricTerm(int num_points) {
   return &*geometry_;
 }
 
-/// Where depth alone is to tell the pose: what keeps it from sliding along walls. None when
-/// nothing is known about the motion.
-MotionPriorTerm* LevelAligner::motionPrior(GeometricTerm* geometry) {
-  const MotionUncertainty& uncertainty = task_.uncertainty;
-  if (geometry == nullptr || !(uncertainty.translation > 0.0 && uncertainty.rotation > 0.0)) {
-    return nullptr;
-  }
-  prior_.emplace(task_.T_live_ref, uncertainty, correlationFactor(*geometry));
+/// What keeps the pose where little is seen. None when nothing is expected of it.
+MotionPriorTerm* LevelAligner::motionPrior(double weight) {
+  const PoseExpectation& expected = task_.expected;
+  if (!expected.is_known) return nullptr;
+  prior_.emplace(expected.T_live_ref, expected.cameraCovariance(), weight);
   return &*prior_;
 }
 
@@ -179,6 +179,7 @@ void LevelAligner::alignByMutualInformation() {
   if (isEnoughInView(term)) {
     LevelTerms terms;
     terms.image = &term;
+    if (task_.holds_coarse_levels && level_ > 0) terms.prior = motionPrior(kMiCountsTimes);
     minimiseTerms(terms);
     record_.visible = static_cast<int>(term.numVisible());
     alignment_.overlap = share(term.numVisible());
@@ -196,7 +197,7 @@ void LevelAligner::alignByMutualInformation() {
   if (GeometricTerm* geometry = geometricTerm(parameters_.geometry.geometric_points_dark)) {
     LevelTerms terms;
     terms.depth = geometry;
-    terms.prior = motionPrior(geometry);
+    if (geometry != nullptr) terms.prior = motionPrior(correlationFactor(*geometry));
     minimiseTerms(terms);
     judgeDepth(*geometry);
   }
@@ -237,10 +238,14 @@ void LevelAligner::alignBySsd() {
     terms.intensities = &term;
   }
   terms.depth = geometry;
-  if (!alignment_.sees_image) terms.prior = motionPrior(geometry);
+  if (!alignment_.sees_image && geometry != nullptr)
+    terms.prior = motionPrior(correlationFactor(*geometry));
   minimiseTerms(terms, stage);
   if (geometry != nullptr) judgeDepth(*geometry);
-  record_.visible = static_cast<int>(term.numVisible());
+  // Of a view that shows nothing, or nothing but white, depth has the points.
+  record_.visible = static_cast<int>(alignment_.sees_image || geometry == nullptr
+                                         ? term.numVisible()
+                                         : std::max(term.numVisible(), geometry->numVisible()));
   alignment_.overlap = share(term.numInView());
   alignment_.residual_scale = term.scale();
   alignment_.correlation = term.correlation();

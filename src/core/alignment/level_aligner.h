@@ -42,7 +42,7 @@ class LevelAligner {
   template <typename Term>
   bool isEnoughInView(Term& term) const;
   GeometricTerm* geometricTerm(int num_points);
-  MotionPriorTerm* motionPrior(GeometricTerm* geometry);
+  MotionPriorTerm* motionPrior(double weight);
   SsdTerm intensityTerm(std::size_t num_points) const;
 
   void alignByMutualInformation();

@@ -61,15 +61,6 @@ Matrix6 gradientCovariance(const FinishedDescent& descent, const Matrix6& hessia
   return static_cast<double>(blocks) / (blocks - 6.0) * of_gradient;
 }
 
-/// Covariance of the increment as the motion so far expects it. The keyframe's own error is in both
-/// poses, and none of the increment.
-Matrix6 expectedCovariance(const PoseExpectation& expected) {
-  if (!expected.is_known) return guessCovariance();
-  const Matrix6 to_increment = adjoint(expected.T_live_ref.inverse());
-  return positivePart(to_increment * expected.covariance * to_increment.transpose() -
-                      expected.keyframe_covariance);
-}
-
 Observability lookAt(const FinishedDescent& descent, const Matrix6& expected_covariance,
                      const Parameters& parameters, const Alignment& alignment) {
   ObservabilityInput input;
@@ -129,7 +120,7 @@ void seekInSeenDirections(const FinishedDescent& descent, const Matrix6& open,
 
 void holdOpenDirections(const FinishedDescent& descent, const Parameters& parameters,
                         Alignment& alignment) {
-  const Matrix6 expected_covariance = expectedCovariance(descent.expected);
+  const Matrix6 expected_covariance = descent.expected.incrementCovariance();
   const Observability seen = lookAt(descent, expected_covariance, parameters, alignment);
   alignment.condition = seen.condition();
   alignment.has_open_directions = seen.hasOpen();

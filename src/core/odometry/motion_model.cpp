@@ -121,15 +121,6 @@ Matrix6 MotionModel::covariance(double stamp, const FrameClock& clock,
   return seen * of_seen * seen.transpose() + open * of_open * open.transpose() + floorCovariance();
 }
 
-MotionUncertainty MotionModel::uncertainty(double stamp, const FrameClock& clock,
-                                           const MotionParameters& parameters) const {
-  const double period = clock.period(parameters);
-  if (!has_velocity_ || !(period > 0.0)) return {};
-  const double seconds = period * periodsSince(stamp, clock, parameters);
-  return {parameters.expected_acceleration * seconds * seconds,
-          parameters.expected_turn_acceleration * seconds * seconds};
-}
-
 Vector6 MotionModel::velocity(const FrameClock& clock, const MotionParameters& parameters) const {
   const double period = clock.period(parameters);
   if (!has_velocity_ || !(period > 0.0)) return Vector6::Zero();

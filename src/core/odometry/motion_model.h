@@ -4,7 +4,6 @@
 #include <Eigen/Geometry>
 
 #include "core/odometry/frame_clock.h"
-#include "core/terms/motion_prior_term.h"
 #include "mivo/core/parameters.h"
 #include "mivo/core/se3.h"
 
@@ -50,11 +49,6 @@ class MotionModel {
   /// not known it grows as the parameters expect it to move.
   Matrix6 covariance(double stamp, const FrameClock& clock,
                      const MotionParameters& parameters) const;
-
-  /// How far the prediction may be off, by the accelerations that the parameters expect. None
-  /// before two poses have been added, when there is no velocity to be kept.
-  MotionUncertainty uncertainty(double stamp, const FrameClock& clock,
-                                const MotionParameters& parameters) const;
 
   /// Velocity of the camera in its own axes, m/s and rad/s; zero before two poses.
   Vector6 velocity(const FrameClock& clock, const MotionParameters& parameters) const;

@@ -15,7 +15,6 @@ struct Prediction {
   Eigen::Isometry3d T_odom_camera = Eigen::Isometry3d::Identity();
   bool is_given = false;
   Matrix6 covariance = Matrix6::Identity();  ///< of its error, in the axes of the camera
-  MotionUncertainty uncertainty;             ///< by the accelerations that are expected
   double periods = 1.0;                      ///< since the last pose
   double seconds = 0.0;                      ///< since the last pose
 };

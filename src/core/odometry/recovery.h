@@ -13,6 +13,7 @@ namespace mivo {
 struct RecoveryAttempt {
   std::size_t keyframe;
   Eigen::Isometry3d T_odom_camera;
+  bool is_expected = false;  ///< it is where the motion so far leads
 };
 
 /// What to try with a frame that the usual start does not align: from the last good pose, from the

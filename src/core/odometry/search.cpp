@@ -12,21 +12,22 @@ namespace {
 /// From another segment nothing leads here: the camera counts as standing still, and may be
 /// anywhere.
 AlignmentTask taskFor(const SearchInput& input, const Prediction& prediction,
-                      const PosedKeyframe& keyframe, const Eigen::Isometry3d& T_odom_camera_start) {
+                      const PosedKeyframe& keyframe, const RecoveryAttempt& attempt) {
   const bool is_connected = keyframe.segment == input.state.segment;
   AlignmentTask task{keyframe.keyframe, input.live, input.camera};
-  task.T_live_ref = T_odom_camera_start.inverse() * keyframe.T_odom_keyframe;
+  task.T_live_ref = attempt.T_odom_camera.inverse() * keyframe.T_odom_keyframe;
   task.motion.T_previous_ref = is_connected
                                    ? input.state.T_odom_camera.inverse() * keyframe.T_odom_keyframe
                                    : task.T_live_ref;
   task.motion.periods = prediction.periods;
   task.shutter = input.state.shutter_times;
   task.last_lit_contrast = keyframe.last_lit_contrast;
-  task.uncertainty = prediction.uncertainty;
   task.expected.is_known = is_connected;
   task.expected.T_live_ref = prediction.T_odom_camera.inverse() * keyframe.T_odom_keyframe;
   task.expected.covariance = prediction.covariance;
   task.expected.keyframe_covariance = keyframe.covariance;
+  task.holds_coarse_levels =
+      is_connected && attempt.is_expected && input.parameters.motion.hold_coarse_levels;
   return task;
 }
 
@@ -45,8 +46,7 @@ Sight look(const SearchInput& input, const Prediction& prediction, const Recover
   const PosedKeyframe& keyframe = input.keyframes.at(attempt.keyframe);
   Sight sight;
   sight.keyframe = attempt.keyframe;
-  sight.alignment =
-      align(taskFor(input, prediction, keyframe, attempt.T_odom_camera), input.parameters);
+  sight.alignment = align(taskFor(input, prediction, keyframe, attempt), input.parameters);
   sight.reason = judgeSight(input, prediction, keyframe, sight.alignment);
   return sight;
 }
@@ -69,7 +69,7 @@ std::optional<Sight> recover(const SearchInput& input, const Prediction& predict
 }  // namespace
 
 Sight findCamera(const SearchInput& input, const Prediction& prediction) {
-  const Sight first = look(input, prediction, {0, prediction.T_odom_camera});
+  const Sight first = look(input, prediction, {0, prediction.T_odom_camera, true});
   if (first.alignment.is_live_dark) return first;
   if (!isBelievable(first)) return recover(input, prediction).value_or(first);
   if (isConvincing(first.alignment, input.parameters.loss)) return first;

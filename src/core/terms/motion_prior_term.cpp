@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/terms/motion_prior_term.h"
 
+#include <Eigen/Cholesky>
+
 namespace mivo {
 namespace {
 
@@ -16,41 +18,26 @@ Matrix6 derivativeOfError(const Vector6& error) {
 
 }  // namespace
 
-MotionPriorTerm::MotionPriorTerm(const Eigen::Isometry3d& T_live_ref_predicted,
-                                 const MotionUncertainty& uncertainty, double weight)
-    : T_predicted_ref_(T_live_ref_predicted), uncertainty_(uncertainty), weight_(weight) {}
-
-Vector6 MotionPriorTerm::information() const {
-  Vector6 information;
-  information.head<3>().setConstant(weight_ /
-                                    (uncertainty_.translation * uncertainty_.translation));
-  information.tail<3>().setConstant(weight_ / (uncertainty_.rotation * uncertainty_.rotation));
-  return information;
-}
+MotionPriorTerm::MotionPriorTerm(const Eigen::Isometry3d& T_live_ref_expected,
+                                 const Matrix6& covariance, double weight)
+    : T_expected_ref_(T_live_ref_expected),
+      information_(weight * covariance.ldlt().solve(Matrix6(Matrix6::Identity()))) {}
 
 double MotionPriorTerm::evaluate(const Eigen::Isometry3d& T_live_ref) {
-  T_predicted_live_ = T_predicted_ref_ * T_live_ref.inverse();
-  const Vector6 error = localCoordinates(T_predicted_live_);
-  return 0.5 * error.dot(information().cwiseProduct(error));
+  T_expected_live_ = T_expected_ref_ * T_live_ref.inverse();
+  const Vector6 error = localCoordinates(T_expected_live_);
+  return 0.5 * error.dot(information_ * error);
 }
 
 QuadraticModel MotionPriorTerm::linearise(int /*iteration*/) {
-  const Vector6 error = localCoordinates(T_predicted_live_);
-  // T <- T retract(d)⁻¹ moves the error by an increment in the predicted camera's axes.
-  const Matrix6 J = derivativeOfError(error) * adjoint(T_predicted_ref_);
+  const Vector6 error = localCoordinates(T_expected_live_);
+  // T <- T retract(d)⁻¹ moves the error by an increment in the expected camera's axes.
+  const Matrix6 J = derivativeOfError(error) * adjoint(T_expected_ref_);
   QuadraticModel model;
-  model.cost = 0.5 * error.dot(information().cwiseProduct(error));
-  model.gradient = J.transpose() * information().cwiseProduct(error);
-  model.hessian = J.transpose() * information().asDiagonal() * J;
+  model.cost = 0.5 * error.dot(information_ * error);
+  model.gradient = J.transpose() * (information_ * error);
+  model.hessian = J.transpose() * information_ * J;
   return model;
-}
-
-int MotionPriorTerm::gradientCovariance(Matrix6& covariance) const {
-  const Matrix6 J =
-      derivativeOfError(localCoordinates(T_predicted_live_)) * adjoint(T_predicted_ref_);
-  // The prior's own variance, counted `weight` times in gradient and Hessian.
-  covariance = weight_ * (J.transpose() * information().asDiagonal() * J);
-  return 0;
 }
 
 }  // namespace mivo

@@ -7,35 +7,24 @@
 
 namespace mivo {
 
-/// How far a pose may be from the predicted one, standard deviations.
-struct MotionUncertainty {
-  double translation = 0.0;  ///< m
-  double rotation = 0.0;     ///< rad
-};
-
-/// The camera keeps its velocity: half the squared distance of a pose from the predicted one, in
-/// the live camera's axes. Holds what the other terms leave open, where depth alone sees a plane or
-/// a corridor.
+/// The camera is about where its motion so far leads: half the squared distance of a pose from the
+/// expected one, over the covariance of that. Holds what the other terms leave open, where depth
+/// alone sees a plane or a corridor, and where a coarse level sees next to nothing.
 class MotionPriorTerm : public CostTerm {
  public:
+  /// @param covariance of the expected pose's error, in the axes of the expected camera, m and rad
   /// @param weight how many times the other terms count what they know, since their residuals are
   /// not independent; the prior has to be counted as often.
-  MotionPriorTerm(const Eigen::Isometry3d& T_live_ref_predicted,
-                  const MotionUncertainty& uncertainty, double weight);
+  MotionPriorTerm(const Eigen::Isometry3d& T_live_ref_expected, const Matrix6& covariance,
+                  double weight);
 
   double evaluate(const Eigen::Isometry3d& T_live_ref) override;
   QuadraticModel linearise(int iteration) override;
 
-  /// Known exactly: the gradient would err as much as the prediction does.
-  int gradientCovariance(Matrix6& covariance) const override;
-
  private:
-  Vector6 information() const;
-
-  Eigen::Isometry3d T_predicted_ref_;
-  MotionUncertainty uncertainty_;
-  double weight_;
-  Eigen::Isometry3d T_predicted_live_ = Eigen::Isometry3d::Identity();  // of the last evaluate()
+  Eigen::Isometry3d T_expected_ref_;
+  Matrix6 information_;                                                // weighted
+  Eigen::Isometry3d T_expected_live_ = Eigen::Isometry3d::Identity();  // of the last evaluate()
 };
 
 }  // namespace mivo
