@@ -9,9 +9,13 @@
 namespace mivo {
 namespace {
 
-// Gradients that agree by less than this share are noise: of two thousand points chance alone gives
-// a twentieth, of five hundred a tenth.
+// Gradients that agree by less than this share are noise: chance alone gives one over the square
+// root of the number of points, and neighbours share some of theirs.
 constexpr double kLeastAgreement = 0.15;
+constexpr double kDeviationsOfChance = 6.0;
+// What is known worse than this, in median depths and rad, is five pixels wide, and known to
+// nobody.
+constexpr double kLargestDeviation = 0.01;
 // A motion belongs to an open direction when so much of the direction is along it.
 constexpr double kPartOfDirection = 0.4;
 // A curvature is none when it is smaller than this share of the strongest: rounding.
@@ -43,9 +47,12 @@ Matrix confirmed(const TermCurvature& term, const Matrix& axes, const Vector6& s
   const Eigen::SelfAdjointEigenSolver<Matrix> means(regular);
   const Matrix whitening = means.operatorInverseSqrt();
   const Eigen::SelfAdjointEigenSolver<Matrix> correlation(Matrix(whitening * both * whitening));
-  const auto counted = [](double rho) {
+  const double least = std::max(
+      kLeastAgreement,
+      kDeviationsOfChance / std::sqrt(static_cast<double>(std::max(1, term.agreement.points))));
+  const auto counted = [least](double rho) {
     const double agreement = std::min(1.0, std::abs(rho));
-    return agreement < kLeastAgreement ? 0.0 : agreement;
+    return agreement < least ? 0.0 : agreement;
   };
   const Matrix R = correlation.eigenvectors() *
                    correlation.eigenvalues().unaryExpr(counted).asDiagonal() *
@@ -79,8 +86,9 @@ void Observability::findOpen() {
     const double h = curvature_[i];
     const double variance = axes_.col(i).dot(gradient_covariance_ * axes_.col(i)) / (h * h);
     const double expected = axes_.col(i).dot(expected_covariance_ * axes_.col(i));
-    const bool is_seen =
-        h > kNoCurvature * strongest && variance <= open_deviations_ * open_deviations_ * expected;
+    const bool is_seen = h > kNoCurvature * strongest &&
+                         variance <= kLargestDeviation * kLargestDeviation &&
+                         variance <= open_deviations_ * open_deviations_ * expected;
     is_open_[static_cast<std::size_t>(i)] = !is_seen;
   }
 }

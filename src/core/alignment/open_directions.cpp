@@ -28,9 +28,11 @@ double pixelsOf(const Vector6& increment, const ReferencePoints& points) {
 }
 
 /// Directions whose curvature could be that of noise.
-std::array<bool, 6> directionsInDoubt(const Observability& seen, const FinishedDescent& descent) {
+std::array<bool, 6> directionsInDoubt(const Observability& seen, const FinishedDescent& descent,
+                                      double least_correlation) {
   std::array<bool, 6> doubt{};
-  if (descent.image == nullptr || !descent.image->isInformative()) {
+  if (descent.image == nullptr || !descent.image->isInformative() ||
+      std::abs(descent.image->correlation()) < least_correlation) {
     doubt.fill(true);
     return doubt;
   }
@@ -69,7 +71,8 @@ Observability lookAt(const FinishedDescent& descent, const Matrix6& expected_cov
   input.length = static_cast<double>(descent.points.median_depth);
   input.open_deviations = parameters.loss.open_deviations;
   Observability seen(alignment.hessian, input);
-  const std::array<bool, 6> doubt = directionsInDoubt(seen, descent);
+  const std::array<bool, 6> doubt =
+      directionsInDoubt(seen, descent, parameters.loss.retry_correlation);
   if (std::none_of(doubt.begin(), doubt.end(), [](bool is_in_doubt) { return is_in_doubt; })) {
     return seen;
   }
