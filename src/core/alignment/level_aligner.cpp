@@ -149,7 +149,7 @@ void LevelAligner::holdOpenDirections(const SsdTerm* intensities) {
 TermCurvature LevelAligner::imageCurvature() {
   const auto curvatureOf = [&](CostTerm& term) {
     term.evaluate(alignment_.T_live_ref);
-    return TermCurvature{term.linearise(kScaleIsKept).hessian, term.agreement()};
+    return TermCurvature{term.linearise(kScaleIsKept).hessian, term.agreement(points_.size())};
   };
   if (record_.mutual_information) {
     MiTerm term(points_, task_.keyframe.level(level_).mi, task_.live.miImage(level_),

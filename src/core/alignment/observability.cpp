@@ -9,9 +9,8 @@
 namespace mivo {
 namespace {
 
-// Gradients that agree by less than this share are noise: chance alone gives one over the square
-// root of the number of points, and neighbours share some of theirs.
-constexpr double kLeastAgreement = 0.15;
+// Derivatives of noise correlate by one over the square root of the number of points, and a few
+// times that where neighbours share their noise.
 constexpr double kDeviationsOfChance = 6.0;
 // What is known worse than this, in median depths and rad, is five pixels wide, and known to
 // nobody.
@@ -29,8 +28,7 @@ Matrix within(const Matrix6& matrix, const Matrix& axes, const Vector6& scale) {
 }
 
 /// Of a term's curvature in a subspace, what both frames agree on: with H = L Lᵀ it is L R Lᵀ, R
-/// the correlation of their derivatives, 1 where they are the same. Correlations below zero are
-/// agreement too, for an image and its negative.
+/// the correlation of their derivatives, 1 where they are the same.
 Matrix confirmed(const TermCurvature& term, const Matrix& axes, const Vector6& scale) {
   const Matrix H = within(term.hessian, axes, scale);
   const Matrix none = Matrix::Zero(H.rows(), H.cols());
@@ -47,12 +45,12 @@ Matrix confirmed(const TermCurvature& term, const Matrix& axes, const Vector6& s
   const Eigen::SelfAdjointEigenSolver<Matrix> means(regular);
   const Matrix whitening = means.operatorInverseSqrt();
   const Eigen::SelfAdjointEigenSolver<Matrix> correlation(Matrix(whitening * both * whitening));
-  const double least = std::max(
-      kLeastAgreement,
-      kDeviationsOfChance / std::sqrt(static_cast<double>(std::max(1, term.agreement.points))));
-  const auto counted = [least](double rho) {
-    const double agreement = std::min(1.0, std::abs(rho));
-    return agreement < least ? 0.0 : agreement;
+  const double least =
+      kDeviationsOfChance / std::sqrt(static_cast<double>(std::max(1, term.agreement.points)));
+  // Of an image and its negative all derivatives disagree alike.
+  const double sign = term.agreement.both.trace() < 0.0 ? -1.0 : 1.0;
+  const auto counted = [=](double rho) {
+    return sign * rho < least ? 0.0 : std::min(1.0, sign * rho);
   };
   const Matrix R = correlation.eigenvectors() *
                    correlation.eigenvalues().unaryExpr(counted).asDiagonal() *

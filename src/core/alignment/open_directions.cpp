@@ -18,6 +18,8 @@ constexpr double kModelErrorPixels = 0.05;
 // A direction along which the keyframe's image changes by less than this, grey levels per pixel,
 // may show nothing but noise: that of a camera in the dark has about half of it.
 constexpr double kNoiseGradient = 4.0;
+// So many points tell in a tenth of a millisecond what most views show.
+constexpr std::size_t kPointsAtFirst = 1024;
 // What robust weights leave of a sum of squares, about.
 constexpr double kMeanWeight = 0.5;
 // The pose is sought again when holding it has moved the points by more than this.
@@ -63,6 +65,16 @@ Matrix6 gradientCovariance(const FinishedDescent& descent, const Matrix6& hessia
   return static_cast<double>(blocks) / (blocks - 6.0) * of_gradient;
 }
 
+/// In place of what was in the list.
+void findCurvatures(const FinishedDescent& descent, const Eigen::Isometry3d& T_live_ref,
+                    std::size_t most_points, std::vector<TermCurvature>& curvatures) {
+  curvatures.clear();
+  for (CostTerm* term : descent.terms) {
+    term->evaluate(T_live_ref);
+    curvatures.push_back({term->linearise(kScaleIsKept).hessian, term->agreement(most_points)});
+  }
+}
+
 Observability lookAt(const FinishedDescent& descent, const Matrix6& expected_covariance,
                      const Parameters& parameters, const Alignment& alignment) {
   ObservabilityInput input;
@@ -77,16 +89,13 @@ Observability lookAt(const FinishedDescent& descent, const Matrix6& expected_cov
     return seen;
   }
   Recycled<std::vector<TermCurvature>> curvatures;
-  curvatures->clear();
-  for (CostTerm* term : descent.terms) {
-    term->evaluate(alignment.T_live_ref);
-    curvatures->push_back({term->linearise(kScaleIsKept).hessian, term->agreement()});
-  }
-  const Observability before = seen;
-  seen.confirm(doubt, *curvatures);
-  if (!seen.hasOpen()) return seen;
+  Observability few = seen;
+  findCurvatures(descent, alignment.T_live_ref, kPointsAtFirst, *curvatures);
+  few.confirm(doubt, *curvatures);
+  if (!few.hasOpen()) return few;
+  // Before a direction is called open all points are asked, and coarser levels.
+  findCurvatures(descent, alignment.T_live_ref, descent.points.size(), *curvatures);
   descent.add_coarser(alignment.T_live_ref, *curvatures);
-  seen = before;
   seen.confirm(doubt, *curvatures);
   return seen;
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstddef>
 
 #include "core/terms/agreement.h"
 #include "mivo/core/se3.h"
@@ -43,7 +44,8 @@ class CostTerm {
   }
 
   /// How the derivatives of keyframe and live frame agree at the pose of the last evaluate().
-  virtual Agreement agreement() const { return {}; }
+  /// @param most_points how many to compare at most: fewer are quicker, more tell less from chance
+  virtual Agreement agreement(std::size_t /*most_points*/) const { return {}; }
 };
 
 }  // namespace mivo

@@ -10,7 +10,6 @@
 namespace mivo {
 namespace {
 
-constexpr std::size_t kPoints = 512;
 // The patches of the keyframe's planes are as large: 14 pixels of the image at 640 columns.
 constexpr int kReadings = 2;    // to each side
 constexpr int kFewest = 13;     // of 25 readings
@@ -48,9 +47,11 @@ std::optional<Eigen::Vector3d> liveNormal(const kernels::DepthView& readings, co
 
 Agreement depthAgreement(const GeometricPoints& points, const Frame& live, const Camera& camera,
                          const std::vector<float>& u, const std::vector<float>& v,
-                         const std::vector<float>& visible, const Eigen::Isometry3d& T_live_ref) {
+                         const std::vector<float>& visible, const Eigen::Isometry3d& T_live_ref,
+                         std::size_t most_points) {
   Agreement agreement;
-  const std::size_t stride = std::max<std::size_t>(1, visible.size() / kPoints);
+  const std::size_t stride =
+      std::max<std::size_t>(1, visible.size() / std::max<std::size_t>(1, most_points));
   for (std::size_t i = 0; i < visible.size(); i += stride) {
     if (visible[i] == 0.0F) continue;
     const auto normal = liveNormal(depthView(live), camera, static_cast<int>(std::lround(u[i])),

@@ -59,9 +59,9 @@ int GeometricTerm::gradientCovariance(Matrix6& covariance) const {
   return sum_.scoreCovariance(*residuals_, jacobian, *u_, *v_, warp_.camera(), covariance);
 }
 
-Agreement GeometricTerm::agreement() const {
+Agreement GeometricTerm::agreement(std::size_t most_points) const {
   return depthAgreement(points_, live_.frame(), warp_.camera(), *u_, *v_, residuals_->visible,
-                        T_live_ref_);
+                        T_live_ref_, most_points);
 }
 
 QuadraticModel GeometricTerm::linearise(int iteration) {

@@ -27,7 +27,7 @@ class GeometricTerm : public CostTerm {
   double evaluate(const Eigen::Isometry3d& T_live_ref) override;
   QuadraticModel linearise(int iteration) override;
   int gradientCovariance(Matrix6& covariance) const override;
-  Agreement agreement() const override;
+  Agreement agreement(std::size_t most_points) const override;
 
   std::size_t numVisible() const { return residuals_->num_visible; }
 

@@ -10,8 +10,6 @@
 namespace mivo {
 namespace {
 
-// So many gradients tell agreement from chance, which is about one over the square root.
-constexpr std::size_t kPoints = 2048;
 // Clipped pixels have been left out of `visible`.
 constexpr float kNeverSaturated = 1e9F;
 
@@ -73,10 +71,12 @@ Vector6 liveDerivative(const Eigen::Vector3d& point, const Eigen::Isometry3d& T_
 
 Agreement imageAgreement(const ReferencePoints& points, const LiveImage& image,
                          const LiveSamples& samples, const std::vector<float>& visible,
-                         const Warp& warp, const Eigen::Isometry3d& T_live_ref) {
+                         const Warp& warp, const Eigen::Isometry3d& T_live_ref,
+                         std::size_t most_points) {
   Recycled<Workspace> work;
   work->index.clear();
-  const std::size_t stride = std::max<std::size_t>(1, visible.size() / kPoints);
+  const std::size_t stride =
+      std::max<std::size_t>(1, visible.size() / std::max<std::size_t>(1, most_points));
   for (std::size_t i = 0; i < visible.size(); i += stride) {
     if (visible[i] != 0.0F) work->index.push_back(i);
   }

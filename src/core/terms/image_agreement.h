@@ -16,10 +16,11 @@ struct LiveImage {
   const ContrastMap* contrast;  ///< to normalise it by; null: taken as it is
 };
 
-/// Agreement of the intensity gradients of some thousand points, spread over all of them.
+/// Agreement of the intensity gradients of at most so many points, spread over all of them.
 /// @param samples where the points fall; @param visible which of them are seen there.
 Agreement imageAgreement(const ReferencePoints& points, const LiveImage& image,
                          const LiveSamples& samples, const std::vector<float>& visible,
-                         const Warp& warp, const Eigen::Isometry3d& T_live_ref);
+                         const Warp& warp, const Eigen::Isometry3d& T_live_ref,
+                         std::size_t most_points);
 
 }  // namespace mivo

@@ -124,9 +124,9 @@ QuadraticModel MiTerm::linearise(int) {
   return model;
 }
 
-Agreement MiTerm::agreement() const {
+Agreement MiTerm::agreement(std::size_t most_points) const {
   return imageAgreement(points_, {live_image_, nullptr}, *samples_, samples_->visible, warp_,
-                        T_live_ref_);
+                        T_live_ref_, most_points);
 }
 
 }  // namespace mivo

@@ -47,7 +47,7 @@ class MiTerm : public CostTerm {
 
   double evaluate(const Eigen::Isometry3d& T_live_ref) override;
   QuadraticModel linearise(int iteration) override;
-  Agreement agreement() const override;
+  Agreement agreement(std::size_t most_points) const override;
 
   double mutualInformation() const { return mutual_information_; }
   std::size_t numVisible() const { return samples_->num_visible; }

@@ -75,9 +75,9 @@ int SsdTerm::gradientCovariance(Matrix6& covariance) const {
   return blocks;
 }
 
-Agreement SsdTerm::agreement() const {
+Agreement SsdTerm::agreement(std::size_t most_points) const {
   return imageAgreement(points_, {live_image_, contrast_}, *samples_, residuals_->visible, warp_,
-                        T_live_ref_);
+                        T_live_ref_, most_points);
 }
 
 bool SsdTerm::isSignificant() const {

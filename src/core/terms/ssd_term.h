@@ -28,7 +28,7 @@ class SsdTerm : public CostTerm {
   double evaluate(const Eigen::Isometry3d& T_live_ref) override;
   QuadraticModel linearise(int iteration) override;
   int gradientCovariance(Matrix6& covariance) const override;
-  Agreement agreement() const override;
+  Agreement agreement(std::size_t most_points) const override;
 
   /// Robust standard deviation of the residuals, grey levels; 0 before the first evaluate().
   double scale() const { return sum_.scale(); }
