@@ -148,16 +148,30 @@ void LevelAligner::holdOpenDirections(const SsdTerm* intensities) {
 
 TermCurvature LevelAligner::imageCurvature() {
   const auto curvatureOf = [&](CostTerm& term) {
-    term.evaluate(alignment_.T_live_ref);
     return TermCurvature{term.linearise(kScaleIsKept).hessian, term.agreement(points_.size())};
   };
   if (record_.mutual_information) {
-    MiTerm term(points_, task_.keyframe.level(level_).mi, task_.live.miImage(level_),
-                task_.live.miRange(level_), warp_, parameters_);
-    return curvatureOf(term);
+    MiTerm term = miTerm();
+    return isEnoughInView(term) && isRelated(term) ? curvatureOf(term) : TermCurvature{};
   }
   SsdTerm term = intensityTerm(points_.size());
-  return curvatureOf(term);
+  return isEnoughInView(term) && isRelated(term) ? curvatureOf(term) : TermCurvature{};
+}
+
+MiTerm LevelAligner::miTerm() const {
+  return MiTerm(points_, task_.keyframe.level(level_).mi, task_.live.miImage(level_),
+                task_.live.miRange(level_), warp_, parameters_);
+}
+
+/// Whether the images have something in common at the term's pose.
+bool LevelAligner::isRelated(const MiTerm& term) const {
+  const MiEvidence evidence =
+      miEvidence(term.mutualInformation(), term.numVisible(), parameters_.mi.mi_bins);
+  return evidence.deviations >= parameters_.mi.mi_significance;
+}
+
+bool LevelAligner::isRelated(const SsdTerm& term) const {
+  return term.isSignificant() && term.correlation() >= parameters_.loss.lost_correlation;
 }
 
 double LevelAligner::share(std::size_t points) const {
@@ -171,8 +185,7 @@ void LevelAligner::judgeDepth(const GeometricTerm& geometry) {
 }
 
 void LevelAligner::alignByMutualInformation() {
-  MiTerm term(points_, task_.keyframe.level(level_).mi, task_.live.miImage(level_),
-              task_.live.miRange(level_), warp_, parameters_);
+  MiTerm term = miTerm();
   const Eigen::Isometry3d start = alignment_.T_live_ref;
   alignment_.sees_image = false;
   alignment_.sees_depth = false;
@@ -184,12 +197,12 @@ void LevelAligner::alignByMutualInformation() {
     record_.visible = static_cast<int>(term.numVisible());
     alignment_.overlap = share(term.numVisible());
     alignment_.mutual_information = term.mutualInformation();
-    const MiEvidence evidence =
-        miEvidence(term.mutualInformation(), term.numVisible(), parameters_.mi.mi_bins);
-    alignment_.correlation = evidence.correlation;
+    alignment_.correlation =
+        miEvidence(term.mutualInformation(), term.numVisible(), parameters_.mi.mi_bins).correlation;
     // What decides about the frame is judged as SSD is.
-    const bool is_strong = level_ > 0 || evidence.correlation >= parameters_.loss.lost_correlation;
-    alignment_.sees_image = is_strong && evidence.deviations >= parameters_.mi.mi_significance;
+    const bool is_strong =
+        level_ > 0 || alignment_.correlation >= parameters_.loss.lost_correlation;
+    alignment_.sees_image = is_strong && isRelated(term);
   }
   if (alignment_.sees_image) return;
   // Chance, not structure: its maximum means nothing. Depth may still know the way.
@@ -249,8 +262,7 @@ void LevelAligner::alignBySsd() {
   alignment_.overlap = share(term.numInView());
   alignment_.residual_scale = term.scale();
   alignment_.correlation = term.correlation();
-  alignment_.sees_image = alignment_.sees_image && term.isInformative() &&
-                          alignment_.correlation >= parameters_.loss.lost_correlation;
+  alignment_.sees_image = alignment_.sees_image && term.isInformative() && isRelated(term);
   if (level_ == kShutterLevel && alignment_.sees_image) measureRows(term, geometry);
 }
 

@@ -44,6 +44,9 @@ class LevelAligner {
   GeometricTerm* geometricTerm(int num_points);
   MotionPriorTerm* motionPrior(double weight);
   SsdTerm intensityTerm(std::size_t num_points) const;
+  MiTerm miTerm() const;
+  bool isRelated(const MiTerm& term) const;
+  bool isRelated(const SsdTerm& term) const;
 
   void alignByMutualInformation();
   void alignBySsd();
