@@ -69,6 +69,7 @@ void addSequenceOptions(mivo::CommandLine& line, Request& request) {
       listed(mivo::SceneLighting::names()).c_str())(
       "frames", number(g.frames, "150"), "number of frames")("rate", number(g.rate, "30"),
                                                              "frames per second")(
+      "pace", number(g.pace, "1"), "how fast the path is travelled: 2 is twice as fast")(
       "seed", number(g.seed, "1"), "another seed: other textures, motion and noise")(
       "width", number(request.width, "640"), "pixels")("height", number(request.height, "480"),
                                                        "pixels")(
@@ -92,8 +93,7 @@ void addColourOptions(mivo::CommandLine& line, Request& request) {
       "max-exposure-time", number(s.exposure_control.max_time, "0.030"), "s, with --auto-exposure")(
       "max-gain", number(s.exposure_control.max_gain, "16"), "with --auto-exposure")(
       "no-blur", po::bool_switch(&request.no_blur), "no motion blur")(
-      "lens-blur", number(s.lens_blur, "0.5"),
-      "standard deviation of the lens' point image, pixels")(
+      "lens-blur", number(s.lens_blur, "0"), "standard deviation of the lens' point image, pixels")(
       "samples", number(s.samples, "4"), "rays per pixel, more where motion asks for it")(
       "readout", number(s.readout, "0"), "s, rolling shutter: from the first to the last row")(
       "no-noise", po::bool_switch(&request.no_noise), "no noise in colour and depth")(

@@ -3,6 +3,7 @@
 
 #include <embree3/rtcore.h>
 
+#include <algorithm>
 #include <limits>
 #include <string>
 
@@ -19,13 +20,16 @@ struct Grid {
   int rows = 1;
 };
 
-// Flat pieces need one quadrilateral; 48 around make a circle round to 0.2 % of its radius.
+constexpr float kFurniture = 0.5F;  // m, radius
+
+// Flat pieces need one quadrilateral; 48 around make a circle round to 0.2 % of its radius, and 960
+// to 10 micrometres what fills the view.
 Grid gridOf(const Patch& patch) {
   switch (patch.shape) {
     case Shape::kParallelogram:
       return {1, 1};
     case Shape::kFrustum:
-      return {48, 1};
+      return {std::max(patch.first_radius, patch.second_radius) < kFurniture ? 48 : 960, 1};
     case Shape::kSphere:
       return {48, 24};
   }

@@ -18,6 +18,7 @@ constexpr double kFirstStamp = 1.0;  // s; 0 would look like a stamp that was ne
 constexpr double kSensitivity = 2.2;
 constexpr double kMostLensBlur = 20.0;  // pixels
 constexpr int kMostSamples = 48;
+constexpr double kFastestPace = 20.0;
 constexpr double kMostDepthTime = 0.1;  // s, between colour and depth, as the odometry allows
 constexpr double kNearDepth = 1.0;      // m, at which the extent of motion blur is estimated
 
@@ -28,6 +29,9 @@ const GeneratorOptions& checked(const GeneratorOptions& options) {
   const SensorOptions& sensor = options.sensor;
   if (options.frames < 1 || !(options.rate > 0.0) || !std::isfinite(options.rate)) {
     throw Error("generator: the number of frames and the rate must be positive");
+  }
+  if (!(options.pace > 0.0) || options.pace > kFastestPace) {
+    throw Error("generator: the pace must be above 0 and at most 20");
   }
   if (options.camera.width < 16 || options.camera.height < 16) {
     throw Error("generator: the images must be at least 16 x 16 pixels");
@@ -71,7 +75,8 @@ SequenceGenerator::SequenceGenerator(const GeneratorOptions& options)
     : options_(checked(options)),
       renderer_(makeScene(options.scene, options.seed), options.camera,
                 hashOf(options.seed, kLightMap)),
-      path_(options.trajectory, renderer_.scene().viewpoint, hashOf(options.seed, kPath)),
+      path_(options.trajectory, renderer_.scene().viewpoint, hashOf(options.seed, kPath),
+            options.pace),
       lighting_(options.lighting, {options.frames, 1.0 / options.rate}, renderer_.scene()),
       imager_(options.sensor.imager),
       depth_sensor_(options.sensor.depth, options.camera),
@@ -130,8 +135,10 @@ Shutter SequenceGenerator::shutterAt(double t, const ExposureSetting& setting) c
 
 cv::Mat SequenceGenerator::film(const PoseAtTime& pose, const Shutter& shutter,
                                 const ExposureSetting& setting, std::uint64_t seed) const {
-  const cv::Mat light = renderer_.renderColour(
+  cv::Mat light = renderer_.renderColour(
       pose, [this](double t) { return lighting_.at(t); }, shutter);
+  const double blur = options_.sensor.lens_blur;
+  if (blur > 0.0) cv::GaussianBlur(light, light, cv::Size(), blur, blur, cv::BORDER_REPLICATE);
   return imager_.expose(light, kSensitivity * setting.product(), setting.gain, seed);
 }
 

@@ -25,7 +25,7 @@ struct SensorOptions {
   double exposure_time = 0.010;  ///< s, of the first frame, and of all without automatic exposure
   double gain = 0.0;             ///< 0: metered once, so that the first frame's mean is the target
   bool motion_blur = true;
-  double lens_blur = 0.5;  ///< standard deviation of the lens' point image, pixels; 0: none
+  double lens_blur = 0.0;  ///< standard deviation of the lens' point image, pixels; 0: none
   int samples = 4;         ///< rays per pixel at least; more where motion would leave gaps
   double readout = 0.0;    ///< s, rolling shutter; 0: global
   DepthSensorOptions depth;
@@ -45,6 +45,7 @@ struct GeneratorOptions {
   std::string lighting = "constant";
   int frames = 150;
   double rate = 30.0;  ///< frames per second
+  double pace = 1.0;   ///< how fast the path is travelled, 1: as camera_path.h says
   std::uint64_t seed = 1;
   Camera camera = xtionCamera();
   SensorOptions sensor;
