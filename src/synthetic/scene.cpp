@@ -23,6 +23,12 @@ constexpr NamedScene kScenes[] = {
     {"corridor", makeCorridor},
     {"wall", makeWall},
     {"bare", makeBare},
+    // Of few edges and even colours.
+    {"hallway", makeHallway},
+    {"ceiling", makeCeiling},
+    {"panels", makePanels},
+    {"hall", makeHall},
+    {"whiteboard", makeWhiteboard},
     // One surface that leaves directions open.
     {"stripes", makeStripes},
     {"blank", makeBlank},

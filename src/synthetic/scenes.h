@@ -13,6 +13,19 @@ Scene makeOffice(std::uint64_t seed);
 Scene makeCorridor(std::uint64_t seed);
 Scene makeWall(std::uint64_t seed);
 
+// Of even colours with few edges: little texture, and some of it repeated.
+
+/// A door, a picture, a standing lamp.
+Scene makeHallway(std::uint64_t seed);
+/// Seen from below: panels that repeat every 60 cm, lamps, an air outlet.
+Scene makeCeiling(std::uint64_t seed);
+/// A chequered wall above a row of cupboards: half a period away all edges fit.
+Scene makePanels(std::uint64_t seed);
+/// Walls beyond the depth sensor's range, the floor and two pillars within it.
+Scene makeHall(std::uint64_t seed);
+/// A white board with a few strokes.
+Scene makeWhiteboard(std::uint64_t seed);
+
 // One surface alone, evenly lit and without end, so that the image does not tell where on it the
 // camera is. In each the camera is rolled: by the seed's remainder by three upright, by a quarter
 // of a turn, or by any angle.
