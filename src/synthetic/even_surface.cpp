@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include "mivo/core/error.h"
 #include "synthetic/pixel_noise.h"
 
 namespace mivo {
@@ -16,6 +17,20 @@ int evenMaterial(SceneBuilder& builder, Texture texture) {
 
 int evenPaint(SceneBuilder& builder) {
   return evenMaterial(builder, plainTexture({0.5F, 0.54F, 0.56F}));
+}
+
+Scene withTexture(Scene scene, std::uint64_t seed) {
+  bool any = false;
+  for (const Material& material : scene.materials) {
+    if (!material.evenly_lit || material.stretched) continue;
+    scene.textures[static_cast<std::size_t>(material.texture)] =
+        plasterTexture({0.5F, 0.54F, 0.56F}, 0.3, seed);
+    any = true;
+  }
+  if (!any) {
+    throw Error("scene '" + scene.name + "' has no surface that could show another texture");
+  }
+  return scene;
 }
 
 void hideLamps(Scene& scene) {

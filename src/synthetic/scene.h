@@ -90,4 +90,7 @@ struct Scene {
 Scene makeScene(const std::string& name, std::uint64_t seed);
 const std::vector<std::string>& sceneNames();
 
+/// The scene with plaster of much structure on all that is lit evenly. Throws Error if nothing is.
+Scene withTexture(Scene scene, std::uint64_t seed);
+
 }  // namespace mivo

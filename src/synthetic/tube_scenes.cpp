@@ -7,8 +7,8 @@
 namespace mivo {
 namespace {
 
-constexpr float kRadius = 1.3F;  // m
-constexpr float kLength = 40.0F;
+constexpr float kRadius = 1.3F;   // m
+constexpr float kLength = 16.0F;  // its ends are never seen
 
 // A tube along y around the camera, which looks at its wall, rolled by an angle of the seed.
 Scene tubeOf(SceneBuilder& b, std::uint64_t seed, int material) {
