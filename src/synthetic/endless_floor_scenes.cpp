@@ -1,19 +1,22 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
 #include <utility>
 
 #include "synthetic/even_surface.h"
-#include "synthetic/pixel_noise.h"
 #include "synthetic/scenes.h"
 
 namespace mivo {
 namespace {
 
 constexpr float kExtent = 40.0F;  // m: its edges are never seen
+constexpr double kGoldenRatio = 0.618034;
 
-// The stripes run in any direction. The camera looks down, so that all of the view is the floor
-// and within the depth sensor's range.
+// The stripes run along x turned about z by the fraction of pi that the seed times the golden ratio
+// leaves: any direction, each seed another. The camera looks down, so that all of the view is the
+// floor and within the depth sensor's range.
 Scene floorOf(SceneBuilder& b, std::uint64_t seed, int material) {
-  const float turn = 2.0F * kPi * uniformFrom(hashOf(seed, 0xf1008));
+  const double turns = kGoldenRatio * static_cast<double>(seed);
+  const auto turn = static_cast<float>(kPi * (turns - std::floor(turns)));
   b.place(0.0F, 0.0F, 0.0F, turn);
   b.levelPanel({0.0F, 0.0F, 0.0F}, kExtent, kExtent, true, material);
   hideLamps(b.scene);
