@@ -15,7 +15,7 @@ namespace {
 
 GeneratorOptions smallOptions() {
   GeneratorOptions options;
-  options.scene = "wall";
+  options.scene = "hallway";
   options.frames = 3;
   options.camera = xtionCamera(160, 120);
   return options;
