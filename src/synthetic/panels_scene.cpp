@@ -9,10 +9,10 @@ namespace mivo {
 namespace {
 
 constexpr float kWall = 1.9F;  // m
-constexpr float kTile = 0.15F;
-constexpr int kColumns = 24;
-constexpr int kRows = 16;
-constexpr float kJoint = 0.006F;
+constexpr float kTile = 0.08F;
+constexpr int kColumns = 46;
+constexpr int kRows = 30;
+constexpr float kJoint = 0.004F;
 
 // A chequered wall: a shift by one tile turns light into dark, by two all is the same again.
 void addTiles(SceneBuilder& b) {
