@@ -15,15 +15,16 @@ class Job:
 
     A command is a list of words; its output is sent to the file of a final (">", file). `after` are
     jobs whose results it reads, `sequences` folders that no job makes. `alone`: nothing else runs
-    beside it, for it measures time.
+    beside it, for it measures time. `accepted` are exit codes that are results, too.
     """
 
-    def __init__(self, name, commands, after=(), sequences=(), alone=False):
+    def __init__(self, name, commands, after=(), sequences=(), alone=False, accepted=(0,)):
         self.name = name
         self.commands = commands
         self.after = list(after)
         self.sequences = list(sequences)
         self.alone = alone
+        self.accepted = accepted
         self.key = None
 
 
@@ -82,7 +83,8 @@ class Folder:
         """Runs the commands and leaves the note. Throws MeasuringError."""
         if os.path.exists(self.note(job)):
             os.remove(self.note(job))  # it would be wrong if this is interrupted
-        processor = sum(run_command(command, self.path, job.name) for command in job.commands)
+        processor = sum(run_command(command, self.path, job.name, job.accepted)
+                        for command in job.commands)
         text = json.dumps({"key": self.key(job), "processor_seconds": round(processor, 2)})
         temporary = self.note(job) + ".part"
         with open(temporary, "w", encoding="utf-8") as note:
@@ -90,7 +92,7 @@ class Folder:
         os.replace(temporary, self.note(job))
 
 
-def run_command(command, folder, name):
+def run_command(command, folder, name, accepted=(0,)):
     """One command; its standard output goes to the file after ">" or nowhere. Returns the processor
     time it took, seconds."""
     words, target = command, os.devnull
@@ -98,7 +100,8 @@ def run_command(command, folder, name):
         words, target = command[:-2], os.path.join(folder, command[-1])
         os.makedirs(os.path.dirname(target), exist_ok=True)
     with open(target, "w", encoding="utf-8") as output:
-        return run_words(words, output, "%s: %s" % (name, os.path.basename(words[0])), folder)
+        return run_words(words, output, "%s: %s" % (name, os.path.basename(words[0])), folder,
+                         accepted)
 
 
 def run_jobs(jobs, folder, workers):

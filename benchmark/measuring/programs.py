@@ -35,14 +35,15 @@ class Programs:
             return output.read()
 
 
-def run_words(words, output, name, folder=None):
+def run_words(words, output, name, folder=None, accepted=(0,)):
     """Runs a command to its end in a folder; its standard output goes to a file. Returns the
-    processor time it took, seconds. Throws MeasuringError, in which it is called `name`."""
+    processor time it took, seconds. Throws MeasuringError, in which it is called `name`, for an exit
+    code that is not accepted."""
     with tempfile.TemporaryFile("w+", encoding="utf-8", errors="replace") as errors:
         process = subprocess.Popen(words, cwd=folder, stdout=output, stderr=errors)
         _, status, usage = os.wait4(process.pid, 0)
         process.returncode = status  # it has been waited for here
-        if status != 0:
+        if not (os.WIFEXITED(status) and os.WEXITSTATUS(status) in accepted):
             errors.seek(0)
             raise MeasuringError("%s failed (%s): %s" % (name, describe(status),
                                                          errors.read().strip()))

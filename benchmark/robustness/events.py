@@ -39,24 +39,25 @@ class Frames:
             return picture.size[::-1]
 
 
-def compose(folder, sources, event, frames_of):
+def compose(folder, sources, event, frames_of, gap=(0, 0.0)):
     """A sequence with the camera of the first source. The event is a list of words and numbers,
     frames_of() gives (colour path, depth path, true pose as seven words) for each frame."""
     def make():
         os.makedirs(folder)
         shutil.copy(os.path.join(sources[0], "camera.txt"), folder)
-        write_lists(folder, frames_of())
+        write_lists(folder, frames_of(), gap=gap)
     recipe = event + [keys.file_key(os.path.realpath(__file__))] + [keys.sequence_key(source)
                                                                     for source in sources]
     return make_once(folder, recipe, make)
 
 
-def write_lists(folder, frames, period=1.0 / 30.0):
+def write_lists(folder, frames, period=1.0 / 30.0, gap=(0, 0.0)):
+    """`gap`: from which frame on stamps are by how many seconds later."""
     with open(os.path.join(folder, "rgb.txt"), "w", encoding="utf-8") as colour, \
             open(os.path.join(folder, "depth.txt"), "w", encoding="utf-8") as depth, \
             open(os.path.join(folder, "groundtruth.txt"), "w", encoding="utf-8") as truth:
         for i, (colour_path, depth_path, pose) in enumerate(frames):
-            stamp = f"{1000.0 + i * period:.6f}"
+            stamp = f"{1000.0 + i * period + (gap[1] if i >= gap[0] else 0.0):.6f}"
             colour.write(f"{stamp} {os.path.relpath(colour_path, folder)}\n")
             depth.write(f"{stamp} {os.path.relpath(depth_path, folder)}\n")
             truth.write(f"{stamp} {' '.join(pose)}\n")
@@ -71,15 +72,19 @@ def write_no_depth(folder, shape):
     return write_png(os.path.join(folder, "no_depth.png"), np.zeros(shape, np.uint16))
 
 
+def write_covered(folder, shape, seed=1):
+    """Five images of the noise of a covered lens."""
+    random = np.random.default_rng(seed)
+    return [write_png(os.path.join(folder, f"covered_{k}.png"),
+                      random.integers(0, 3, shape + (3,), dtype=np.uint8)) for k in range(5)]
+
+
 def covered(folder, source, first, count, seed=1):
     """`count` frames from `first` on show nothing but the noise of a covered lens, no depth. The
     camera waits at the last frame before: the view is known when the cover is taken off."""
     def frames_of():
         frames = Frames(source)
-        random = np.random.default_rng(seed)
-        dark = [write_png(os.path.join(folder, f"covered_{k}.png"),
-                          random.integers(0, 3, frames.shape() + (3,), dtype=np.uint8))
-                for k in range(5)]
+        dark = write_covered(folder, frames.shape(), seed)
         empty = write_no_depth(folder, frames.shape())
         known = frames.all()
         return known[:first] + [(dark[k % 5], empty, frames.truth[first - 1])
@@ -103,6 +108,25 @@ def teleported(folder, source, first, count):
         frames = Frames(source).all()
         return frames[:first] + frames[first + count:]
     return compose(folder, [source], ["teleported", first, count], frames_of)
+
+
+def after_gap(folder, here, there, kind, seconds):
+    """Half of a sequence, `seconds` without frames, and then another place (`elsewhere`), a covered
+    lens for as many frames (`covered`), or the other half (`goes on`)."""
+    def frames_of():
+        frames = Frames(here)
+        known = frames.all()
+        middle = len(known) // 2
+        if kind == "elsewhere":
+            return known[:middle] + Frames(there).all()[middle:]
+        if kind == "covered":
+            dark, empty = write_covered(folder, frames.shape()), write_no_depth(folder,
+                                                                                frames.shape())
+            return known[:middle] + [(dark[k % len(dark)], empty, frames.truth[middle - 1])
+                                     for k in range(middle)]
+        return known
+    return compose(folder, [here, there], ["after_gap", kind, seconds], frames_of,
+                   (len(Frames(here).colour) // 2, seconds))
 
 
 def joined(folder, first_source, second_source, count):

@@ -31,6 +31,7 @@ PATHS = ["rotation", "figure_of_eight"]
 FILMED_LIGHT = ["constant", "ramp_step", "moving_lamp", "left_right", "auto_exposure"]
 RELIT = ["constant", "ramp_step", "spot", "gamma", "auto_exposure"]
 FEW = 2  # lights of a quick run
+EVERY = 3  # of its models only so many: both kinds of map, and of parameters
 HEAD = ["what is compared", "constant light", "changing light", "worst sequence", "lost frames"]
 
 # What a run gave, and of which sequence.
@@ -40,11 +41,12 @@ Run = collections.namedtuple("Run", "kind model sequence light metres degrees lo
 def tables(bench):
     """(title, head, rows) for filmed sequences, and for recordings if there are any."""
     tasks = filmed_tasks(bench) + recorded_tasks(bench)
-    progress = Progress(len(tasks) * len(MODELS), "runs of models")
+    models = MODELS[::EVERY] if bench.options.quick else MODELS
+    progress = Progress(len(tasks) * len(models), "runs of models")
     runs = []
     for kind, sequence, light, make in tasks:
         source = make()
-        for model in MODELS:
+        for model in models:
             figures = run(bench, source, model)
             runs.append(Run(kind, model[0], sequence, light, *rpe(figures), int(figures["lost"])))
             progress.step(f"{sequence} {light}, {model[0]}")

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <future>
 #include <memory>
@@ -31,6 +32,7 @@ struct Request {
   int height = 480;
   std::string distortion;
   std::vector<double> depth_offset;
+  std::vector<double> blind;
   std::string transfer = "srgb";
   bool no_blur = false;
   bool no_noise = false;
@@ -69,9 +71,12 @@ void addSequenceOptions(mivo::CommandLine& line, Request& request) {
       listed(mivo::SceneLighting::names()).c_str())(
       "frames", number(g.frames, "150"), "number of frames")("rate", number(g.rate, "30"),
                                                              "frames per second")(
+      "pace", number(g.pace, "1"), "how fast the path is travelled: 2 is twice as fast")(
       "seed", number(g.seed, "1"), "another seed: other textures, motion and noise")(
       "width", number(request.width, "640"), "pixels")("height", number(request.height, "480"),
                                                        "pixels")(
+      "blind", mivo::twoNumbers(&request.blind)->value_name("FIRST COUNT"),
+      "before and after these frames a scene of one surface is textured")(
       "distortion", po::value(&request.distortion)->value_name("K1,K2,P1,P2,K3"),
       "lens distortion, five numbers with commas and no blanks; none by default")(
       "threads", number(request.threads, "all cores"), "threads; the images do not depend on it")(
@@ -92,8 +97,7 @@ void addColourOptions(mivo::CommandLine& line, Request& request) {
       "max-exposure-time", number(s.exposure_control.max_time, "0.030"), "s, with --auto-exposure")(
       "max-gain", number(s.exposure_control.max_gain, "16"), "with --auto-exposure")(
       "no-blur", po::bool_switch(&request.no_blur), "no motion blur")(
-      "lens-blur", number(s.lens_blur, "0.5"),
-      "standard deviation of the lens' point image, pixels")(
+      "lens-blur", number(s.lens_blur, "0"), "standard deviation of the lens' point image, pixels")(
       "samples", number(s.samples, "4"), "rays per pixel, more where motion asks for it")(
       "readout", number(s.readout, "0"), "s, rolling shutter: from the first to the last row")(
       "no-noise", po::bool_switch(&request.no_noise), "no noise in colour and depth")(
@@ -145,6 +149,13 @@ mivo::Distortion parseDistortion(const std::string& text) {
   return distortion;
 }
 
+int wholeNumber(const std::string& option, double value) {
+  if (value != std::floor(value) || std::abs(value) > 1e9) {
+    throw mivo::UsageError(fmt::format("--{}: {} is not a whole number", option, value));
+  }
+  return static_cast<int>(value);
+}
+
 mivo::GeneratorOptions generatorOptions(Request& request, const mivo::CommandLine& line) {
   mivo::GeneratorOptions& g = request.generator;
   requireName("scene", g.scene, mivo::sceneNames());
@@ -156,6 +167,10 @@ mivo::GeneratorOptions generatorOptions(Request& request, const mivo::CommandLin
   if (request.threads < 0) throw mivo::UsageError("--threads must not be negative");
   g.camera = mivo::xtionCamera(request.width, request.height);
   if (!request.distortion.empty()) g.camera.distortion = parseDistortion(request.distortion);
+  if (!request.blind.empty()) {
+    g.blind_from = wholeNumber("blind", request.blind[0]);
+    g.blind_frames = wholeNumber("blind", request.blind[1]);
+  }
   if (!request.depth_offset.empty())
     g.sensor.depth_offset = {request.depth_offset[0], request.depth_offset[1]};
   g.sensor.imager.transfer =

@@ -17,6 +17,22 @@ LevelRecord recordOf(const TrackingResult& result, int level) {
   return {};
 }
 
+std::string covarianceNames(const char* name) {
+  std::string names;
+  for (int i = 0; i < 6; ++i) {
+    for (int j = i; j < 6; ++j) names += fmt::format(",{}_{}{}", name, i, j);
+  }
+  return names;
+}
+
+std::string upperTriangle(const Matrix6& covariance) {
+  std::string numbers;
+  for (int i = 0; i < 6; ++i) {
+    for (int j = i; j < 6; ++j) numbers += fmt::format(",{:.9g}", covariance(i, j));
+  }
+  return numbers;
+}
+
 }  // namespace
 
 StatisticsFile::StatisticsFile(const std::string& path, Overwrite overwrite, int levels)
@@ -30,10 +46,8 @@ StatisticsFile::StatisticsFile(const std::string& path, Overwrite overwrite, int
       ",mutual_information,residual_scale,overlap,rolling_shutter_readout"
       ",sigma_tx,sigma_ty,sigma_tz,sigma_rx,sigma_ry,sigma_rz"
       ",ms_pyramid,ms_tracking,ms_keyframe,ms_total,cpu_ms";
-  for (int i = 0; i < 6; ++i) {
-    for (int j = i; j < 6; ++j) header += fmt::format(",covariance_{}{}", i, j);
-  }
-  header += ",depth_time_offset";
+  header += covarianceNames("covariance");
+  header += ",depth_time_offset" + covarianceNames("alignment_covariance");
   file_.write(header + "\n");
 }
 
@@ -53,10 +67,9 @@ void StatisticsFile::write(double stamp, const TrackingResult& result, double cp
   const StageTimes& times = result.milliseconds;
   row += fmt::format(",{:.3f},{:.3f},{:.3f},{:.3f},{:.3f}", times.pyramid, times.tracking,
                      times.keyframe, times.total, cpu_ms);
-  for (int i = 0; i < 6; ++i) {
-    for (int j = i; j < 6; ++j) row += fmt::format(",{:.9g}", result.covariance(i, j));
-  }
+  row += upperTriangle(result.covariance);
   row += fmt::format(",{:.5f}", result.depth_time_offset);
+  row += upperTriangle(result.alignment_covariance);
   file_.write(row + "\n");
 }
 

@@ -22,6 +22,11 @@ const Eigen::Vector3d kEightRotationSpeed(29.0 * kDegree, 14.0 * kDegree, 7.0 * 
 constexpr double kEightSpeed = 0.37;  // m/s, where it is fastest
 constexpr double kSwaySpeed = 0.04;   // m/s, of a camera that only turns
 constexpr double kFastFactor = 4.0;
+constexpr double kSlideSlowest = 0.15;  // m/s
+constexpr double kSlideFastest = 0.35;
+constexpr double kSlideTurnRate = 20.0 * kDegree;  // rad/s
+constexpr double kSlideAcceleration = 0.25;        // m/s^2, of each of its swings along an axis
+constexpr double kSlideTurnAcceleration = 0.6;     // rad/s^2
 // A hand's tremor: three frequencies per axis, the faster the smaller.
 constexpr std::array<double, 3> kTremorHertz{1.7, 3.9, 7.3};
 constexpr double kTremorSpeed = 0.008;             // m/s, peak of each
@@ -34,13 +39,14 @@ double CameraPath::Swing::at(double t) const {
 }
 
 const std::vector<std::string>& CameraPath::names() {
-  static const std::vector<std::string> names{"static", "translation", "rotation",
-                                              "figure_of_eight", "fast_rotation"};
+  static const std::vector<std::string> names{"static",          "translation",   "rotation",
+                                              "figure_of_eight", "fast_rotation", "slide"};
   return names;
 }
 
-CameraPath::CameraPath(const std::string& name, const Viewpoint& viewpoint, std::uint64_t seed)
-    : viewpoint_(viewpoint), seed_(seed) {
+CameraPath::CameraPath(const std::string& name, const Viewpoint& viewpoint, std::uint64_t seed,
+                       double pace)
+    : viewpoint_(viewpoint), seed_(seed), pace_(pace) {
   if (name == "static") {
     return;
   }
@@ -55,15 +61,26 @@ CameraPath::CameraPath(const std::string& name, const Viewpoint& viewpoint, std:
     }
   } else if (name == "figure_of_eight") {
     followEight();
+  } else if (name == "slide") {
+    slide();
+    return;
   } else {
-    throw Error("unknown trajectory '" + name +
-                "': expected static, translation, rotation, figure_of_eight or fast_rotation");
+    throw Error(
+        "unknown trajectory '" + name +
+        "': expected static, translation, rotation, figure_of_eight, fast_rotation or slide");
   }
   addTremor();
 }
 
-double CameraPath::randomPhase() {
-  return kTwoPi * uniformFrom(hashOf(seed_, 0x9a7b, draws_++));
+double CameraPath::uniform(double low, double high) {
+  return low + (high - low) * uniformFrom(hashOf(seed_, 0x9a7b, draws_++));
+}
+
+Eigen::Vector3d CameraPath::randomDirection() {
+  const double z = uniform(-1.0, 1.0);
+  const double azimuth = randomPhase();
+  const double across = std::sqrt(1.0 - z * z);
+  return {across * std::cos(azimuth), across * std::sin(azimuth), z};
 }
 
 void CameraPath::translate(const Eigen::Vector3d& peak_speed) {
@@ -94,6 +111,28 @@ void CameraPath::followEight() {
   position_[0] = {0.15 * viewpoint_.reach.x(), 1.3 * rate, randomPhase()};
 }
 
+void CameraPath::slide() {
+  // Where there is room to go.
+  const Eigen::Vector3d direction = randomDirection().cwiseProduct(viewpoint_.reach).normalized();
+  const Eigen::Vector3d velocity = uniform(kSlideSlowest, kSlideFastest) * direction;
+  const Eigen::Vector3d turn_rate = uniform(0.0, kSlideTurnRate) * randomDirection();
+  const Eigen::Vector3d angle_reach(viewpoint_.yaw_reach, viewpoint_.pitch_reach, kRollReach);
+  for (int i = 0; i < 3; ++i) {
+    const auto axis = static_cast<std::size_t>(i);
+    // A long swing starts in its middle: nearly straight on where the reach is large.
+    const double amplitude = kReachUsed * viewpoint_.reach[i];
+    const double most = std::sqrt(kSlideAcceleration * amplitude);
+    position_[axis] = {amplitude, std::clamp(velocity[i], -most, most) / amplitude, 0.0};
+    const double angle = kReachUsed * angle_reach[i];
+    const double most_turn = std::sqrt(kSlideTurnAcceleration * angle);
+    angles_[axis] = {angle, std::clamp(turn_rate[i], -most_turn, most_turn) / angle, 0.0};
+    // And a short one, for changes of speed.
+    const double rate = kTwoPi / uniform(3.0, 6.0);
+    const double short_reach = std::min(kSlideAcceleration / (rate * rate), 0.15 * amplitude);
+    position_tremor_[0][axis] = {uniform(0.0, short_reach), rate, 0.0};
+  }
+}
+
 void CameraPath::addTremor() {
   for (std::size_t k = 0; k < kTremorHertz.size(); ++k) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -104,9 +143,10 @@ void CameraPath::addTremor() {
   }
 }
 
-Eigen::Isometry3d CameraPath::poseAt(double t) const {
+Eigen::Isometry3d CameraPath::poseAt(double seconds) const {
+  const double t = pace_ * seconds;
   Eigen::Vector3d position = viewpoint_.centre;
-  Eigen::Vector3d angles(0.0, viewpoint_.pitch, 0.0);
+  Eigen::Vector3d angles(0.0, viewpoint_.pitch, viewpoint_.roll);
   for (int i = 0; i < 3; ++i) {
     const auto axis = static_cast<std::size_t>(i);
     position[i] += position_[axis].at(t);

@@ -19,16 +19,20 @@ namespace mivo {
 ///   rotation         turns at up to 40 deg/s, nearly in place
 ///   figure_of_eight  both, along a lying eight across the view
 ///   fast_rotation    the rotation, four times as fast
+///   slide            on and on in a direction of the seed at 0.15 to 0.35 m/s, turning at up to
+///                    20 deg/s, speeding up and slowing down; starts at the viewpoint's centre
 ///
-/// All but `static` have the small tremor of a hand.
+/// All but `static` and `slide` have the small tremor of a hand. A pace other than 1 makes all of
+/// it faster or slower.
 class CameraPath {
  public:
   /// The seed shifts phases and the tremor. Throws Error for an unknown name, listing the known
   /// ones.
-  CameraPath(const std::string& name, const Viewpoint& viewpoint, std::uint64_t seed);
+  CameraPath(const std::string& name, const Viewpoint& viewpoint, std::uint64_t seed,
+             double pace = 1.0);
 
-  /// T_world_camera of the optical frame at `t` seconds.
-  Eigen::Isometry3d poseAt(double t) const;
+  /// T_world_camera of the optical frame.
+  Eigen::Isometry3d poseAt(double seconds) const;
 
   static const std::vector<std::string>& names();
 
@@ -46,10 +50,14 @@ class CameraPath {
   void translate(const Eigen::Vector3d& peak_speed);
   void rotate(const Eigen::Vector3d& peak_speed);
   void followEight();
-  double randomPhase();
+  void slide();
+  double uniform(double low, double high);
+  double randomPhase() { return uniform(0.0, 2.0 * M_PI); }
+  Eigen::Vector3d randomDirection();
 
   Viewpoint viewpoint_;
   std::uint64_t seed_;
+  double pace_;
   std::uint64_t draws_ = 0;
   Swings position_;  // x, y, z of the scene
   Swings angles_;    // yaw to the left, pitch upwards, roll

@@ -45,7 +45,10 @@ LightMap::LightMap(const Scene& scene, const RayCaster& caster, std::uint64_t se
   std::vector<Row> rows;
   std::size_t total = 0;
   for (std::size_t k = 0; k < scene.patches.size(); ++k) {
-    const Eigen::Vector2f size = scene.patches[k].size();
+    const Material& material = scene.materials[static_cast<std::size_t>(scene.patches[k].material)];
+    // Of what is lit evenly nobody asks.
+    const Eigen::Vector2f size =
+        material.evenly_lit ? Eigen::Vector2f(0.0F, 0.0F) : scene.patches[k].size();
     layers_.push_back({nodesAlong(size.x()), nodesAlong(size.y()), total});
     total += static_cast<std::size_t>(layers_[k].columns * layers_[k].rows);
     for (int row = 0; row < layers_[k].rows; ++row) {

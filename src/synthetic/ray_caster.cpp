@@ -3,6 +3,7 @@
 
 #include <embree3/rtcore.h>
 
+#include <algorithm>
 #include <limits>
 #include <string>
 
@@ -19,13 +20,19 @@ struct Grid {
   int rows = 1;
 };
 
-// Flat pieces need one quadrilateral; 48 around make a circle round to 0.2 % of its radius.
+// Flat pieces need one quadrilateral; 48 around make a circle round to 0.2 % of its radius. What
+// fills the view is round to 10 micrometres, of pieces that are not too narrow to be hit exactly.
+constexpr Grid kFurniture{48, 1};
+constexpr Grid kTube{960, 64};
+constexpr float kWidestFurniture = 0.5F;  // m, radius
+
 Grid gridOf(const Patch& patch) {
   switch (patch.shape) {
     case Shape::kParallelogram:
       return {1, 1};
     case Shape::kFrustum:
-      return {48, 1};
+      return std::max(patch.first_radius, patch.second_radius) < kWidestFurniture ? kFurniture
+                                                                                  : kTube;
     case Shape::kSphere:
       return {48, 24};
   }

@@ -55,6 +55,7 @@ struct Renderer::View {
   Eigen::Array4f lamp_x, lamp_y, lamp_z;  // of the four lamps
   Eigen::Array4f intensity;               // candela
   float bounce;                           // lux
+  float even;                             // lux on what is lit evenly
   float moving_lux;
   Eigen::Vector3f moving;
 
@@ -118,6 +119,7 @@ void Renderer::prepareSurfaces() {
     surface.gloss_doublings = material.gloss_doublings;
     surface.luminous_lamp = material.luminous_lamp;
     surface.absorbs_infrared = material.absorbs_infrared;
+    surface.evenly_lit = material.evenly_lit;
     surfaces_.push_back(surface);
   }
 }
@@ -163,6 +165,7 @@ Renderer::View Renderer::makeView(const PoseAtTime& pose, const LightAtTime& lig
     view.intensity[k] = intensity_per_lux_[i] * state.lamp_lux[i];
     view.bounce += kBounceShare * state.lamp_lux[i];
   }
+  view.even = state.total();
   view.moving_lux = state.moving_lux;
   view.moving = state.moving_position;
   return view;
@@ -207,8 +210,11 @@ Eigen::Array3f Renderer::shade(const View& view, const Hit& hit, float moving_vi
     const float area = 4.0F * lamp.half_x * lamp.half_y;
     return Eigen::Array3f::Constant(kPi * view.intensity[surface.luminous_lamp] / area);
   }
-  const LightMap::Node node = light_map_.at(hit.patch, hit.u, hit.v);
   const Eigen::Array4f texel = reflectance(surface, hit, cosine);
+  if (surface.evenly_lit) {
+    return texel.head<3>() * view.even;
+  }
+  const LightMap::Node node = light_map_.at(hit.patch, hit.u, hit.v);
 
   // Towards the four lamps: luminaires and surfaces both follow the cosine, so no root is needed.
   const Eigen::Array4f x = view.lamp_x - point.x();

@@ -76,6 +76,7 @@ class Renderer {
     int gloss_doublings;
     int luminous_lamp;
     bool absorbs_infrared;
+    bool evenly_lit;
   };
   struct View;
   struct Hit;

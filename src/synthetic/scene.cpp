@@ -11,6 +11,35 @@
 namespace mivo {
 namespace {
 
+struct NamedScene {
+  const char* name;
+  Scene (*make)(std::uint64_t seed);
+};
+
+constexpr NamedScene kScenes[] = {
+    // Furnished.
+    {"room", makeRoom},
+    {"office", makeOffice},
+    {"corridor", makeCorridor},
+    {"wall", makeWall},
+    {"bare", makeBare},
+    // Of few edges and even colours.
+    {"hallway", makeHallway},
+    {"ceiling", makeCeiling},
+    {"panels", makePanels},
+    {"hall", makeHall},
+    {"whiteboard", makeWhiteboard},
+    // One surface that leaves directions open.
+    {"stripes", makeStripes},
+    {"blank", makeBlank},
+    {"tube", makeTube},
+    {"rings", makeRings},
+    {"floor", makeStripedFloor},
+    {"blank_floor", makeBlankFloor},
+    {"stripes_after_texture", makeStripesAfterTexture},
+    {"blank_after_texture", makeBlankAfterTexture},
+};
+
 // Unit vector that u points to, and its derivative's direction, around the axis of a round patch.
 // Seen from outside and upright u runs to the right: counter-clockwise seen from above.
 struct Around {
@@ -73,27 +102,25 @@ Eigen::Vector2f Patch::size() const {
 }
 
 const std::vector<std::string>& sceneNames() {
-  static const std::vector<std::string> names{"room", "office", "corridor", "wall", "bare"};
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const NamedScene& scene : kScenes) all.emplace_back(scene.name);
+    return all;
+  }();
   return names;
 }
 
 Scene makeScene(const std::string& name, std::uint64_t seed) {
-  Scene scene;
-  if (name == "room") {
-    scene = makeRoom(seed);
-  } else if (name == "office") {
-    scene = makeOffice(seed);
-  } else if (name == "corridor") {
-    scene = makeCorridor(seed);
-  } else if (name == "wall") {
-    scene = makeWall(seed);
-  } else if (name == "bare") {
-    scene = makeBare(seed);
-  } else {
-    throw Error("unknown scene '" + name + "': expected room, office, corridor, wall or bare");
+  for (const NamedScene& known : kScenes) {
+    if (name == known.name) {
+      Scene scene = known.make(seed);
+      scene.name = name;
+      return scene;
+    }
   }
-  scene.name = name;
-  return scene;
+  std::string expected;
+  for (const std::string& known : sceneNames()) expected += (expected.empty() ? "" : ", ") + known;
+  throw Error("unknown scene '" + name + "': expected one of " + expected);
 }
 
 }  // namespace mivo

@@ -22,6 +22,8 @@ struct Material {
   bool absorbs_infrared = false;  ///< the depth sensor gets nothing back
   bool clean = false;             ///< no stains: really without structure if its texture is
   bool stretched = false;         ///< the texture is a picture over the whole surface, not repeated
+  /// The same light everywhere, matt: shading does not tell where on the surface the camera looks.
+  bool evenly_lit = false;
 };
 
 enum class Shape {
@@ -66,6 +68,7 @@ struct Viewpoint {
   double yaw_reach = 0.5;       ///< rad, to both sides of +x; farther, nothing is worth looking at
   double pitch_reach = 0.2;     ///< rad, around `pitch`
   double pitch = 0.0;           ///< rad, upwards
+  double roll = 0.0;  ///< rad about the optical axis, clockwise seen from behind the camera
 };
 
 struct Scene {
@@ -83,8 +86,11 @@ struct Scene {
   Eigen::Vector3f moving_lamp_reach = Eigen::Vector3f::Zero();
 };
 
-/// room, office, corridor, wall, bare. Throws Error for another name, listing these.
+/// One of sceneNames(). Throws Error for another name, listing these.
 Scene makeScene(const std::string& name, std::uint64_t seed);
 const std::vector<std::string>& sceneNames();
+
+/// The scene with plaster of much structure on all that is lit evenly. Throws Error if nothing is.
+Scene withTexture(Scene scene, std::uint64_t seed);
 
 }  // namespace mivo

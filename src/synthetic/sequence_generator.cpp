@@ -18,16 +18,23 @@ constexpr double kFirstStamp = 1.0;  // s; 0 would look like a stamp that was ne
 constexpr double kSensitivity = 2.2;
 constexpr double kMostLensBlur = 20.0;  // pixels
 constexpr int kMostSamples = 48;
+constexpr double kFastestPace = 20.0;
 constexpr double kMostDepthTime = 0.1;  // s, between colour and depth, as the odometry allows
 constexpr double kNearDepth = 1.0;      // m, at which the extent of motion blur is estimated
 
 // Which of the many random numbers of a sequence.
-enum Stream : std::uint64_t { kLightMap = 1, kPath, kColour, kRight, kDepth };
+enum Stream : std::uint64_t { kLightMap = 1, kPath, kColour, kRight, kDepth, kTexture };
 
 const GeneratorOptions& checked(const GeneratorOptions& options) {
   const SensorOptions& sensor = options.sensor;
   if (options.frames < 1 || !(options.rate > 0.0) || !std::isfinite(options.rate)) {
     throw Error("generator: the number of frames and the rate must be positive");
+  }
+  if (options.blind_from < 0 || options.blind_frames < 0) {
+    throw Error("generator: the blind frames must not be negative");
+  }
+  if (!(options.pace > 0.0 && options.pace <= kFastestPace)) {
+    throw Error("generator: the pace must be above 0 and at most 20");
   }
   if (options.camera.width < 16 || options.camera.height < 16) {
     throw Error("generator: the images must be at least 16 x 16 pixels");
@@ -71,12 +78,24 @@ SequenceGenerator::SequenceGenerator(const GeneratorOptions& options)
     : options_(checked(options)),
       renderer_(makeScene(options.scene, options.seed), options.camera,
                 hashOf(options.seed, kLightMap)),
-      path_(options.trajectory, renderer_.scene().viewpoint, hashOf(options.seed, kPath)),
+      path_(options.trajectory, renderer_.scene().viewpoint, hashOf(options.seed, kPath),
+            options.pace),
       lighting_(options.lighting, {options.frames, 1.0 / options.rate}, renderer_.scene()),
       imager_(options.sensor.imager),
       depth_sensor_(options.sensor.depth, options.camera),
       exposure_control_(options.sensor.exposure_control, {options.sensor.exposure_time, 1.0}) {
+  if (options_.blind_frames > 0) {
+    textured_ =
+        std::make_unique<Renderer>(withTexture(renderer_.scene(), hashOf(options_.seed, kTexture)),
+                                   options_.camera, hashOf(options_.seed, kLightMap));
+  }
   exposure_control_ = ExposureControl(options_.sensor.exposure_control, firstSetting());
+}
+
+const Renderer& SequenceGenerator::rendererOf(int frame) const {
+  const bool blind =
+      frame >= options_.blind_from && frame - options_.blind_from < options_.blind_frames;
+  return textured_ && !blind ? *textured_ : renderer_;
 }
 
 // A look at the first view, as a camera that has been on for a while would have had.
@@ -128,10 +147,13 @@ Shutter SequenceGenerator::shutterAt(double t, const ExposureSetting& setting) c
   return shutter;
 }
 
-cv::Mat SequenceGenerator::film(const PoseAtTime& pose, const Shutter& shutter,
-                                const ExposureSetting& setting, std::uint64_t seed) const {
-  const cv::Mat light = renderer_.renderColour(
+cv::Mat SequenceGenerator::film(const Renderer& renderer, const PoseAtTime& pose,
+                                const Shutter& shutter, const ExposureSetting& setting,
+                                std::uint64_t seed) const {
+  cv::Mat light = renderer.renderColour(
       pose, [this](double t) { return lighting_.at(t); }, shutter);
+  const double blur = options_.sensor.lens_blur;
+  if (blur > 0.0) cv::GaussianBlur(light, light, cv::Size(), blur, blur, cv::BORDER_REPLICATE);
   return imager_.expose(light, kSensitivity * setting.product(), setting.gain, seed);
 }
 
@@ -145,15 +167,18 @@ SyntheticFrame SequenceGenerator::next() {
   frame.lux = lighting_.at(t).total();
   const Shutter shutter = shutterAt(t, frame.exposure);
   const PoseAtTime pose = [this](double time) { return path_.poseAt(time); };
-  frame.colour = film(pose, shutter, frame.exposure, hashOf(options_.seed, kColour, index));
+  const Renderer& renderer = rendererOf(next_);
+  frame.colour =
+      film(renderer, pose, shutter, frame.exposure, hashOf(options_.seed, kColour, index));
   if (options_.sensor.stereo_baseline > 0.0) {
     const Eigen::Translation3d right(options_.sensor.stereo_baseline, 0.0, 0.0);
-    frame.right = film([&](double time) { return Eigen::Isometry3d(path_.poseAt(time) * right); },
-                       shutter, frame.exposure, hashOf(options_.seed, kRight, index));
+    frame.right = film(
+        renderer, [&](double time) { return Eigen::Isometry3d(path_.poseAt(time) * right); },
+        shutter, frame.exposure, hashOf(options_.seed, kRight, index));
   }
   Shutter depth_shutter = shutter;
   depth_shutter.mid_time += options_.sensor.depth_time_offset;
-  const SurfaceImage surface = renderer_.renderSurface(
+  const SurfaceImage surface = renderer.renderSurface(
       pose, [this](double time) { return lighting_.at(time); }, depth_shutter,
       options_.sensor.depth_offset.cast<float>());
   frame.exact_depth = surface.depth;

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <memory>
 #include <opencv2/core/mat.hpp>
 #include <string>
 
@@ -25,7 +26,7 @@ struct SensorOptions {
   double exposure_time = 0.010;  ///< s, of the first frame, and of all without automatic exposure
   double gain = 0.0;             ///< 0: metered once, so that the first frame's mean is the target
   bool motion_blur = true;
-  double lens_blur = 0.5;  ///< standard deviation of the lens' point image, pixels; 0: none
+  double lens_blur = 0.0;  ///< standard deviation of the lens' point image, pixels; 0: none
   int samples = 4;         ///< rays per pixel at least; more where motion would leave gaps
   double readout = 0.0;    ///< s, rolling shutter; 0: global
   DepthSensorOptions depth;
@@ -34,8 +35,7 @@ struct SensorOptions {
   double depth_time_offset = 0.0;  ///< s, by which a row of depth is read later than that of colour
   double stereo_baseline = 0.0;    ///< m to the right camera; 0: there is none
 
-  /// Switches noise, motion blur, quantisation and holes off. The lens stays: without it the image
-  /// would not be band-limited, and no interpolation of it exact.
+  /// Switches noise, motion blur, quantisation and holes off. The blur of the lens stays.
   void makeIdeal();
 };
 
@@ -45,7 +45,12 @@ struct GeneratorOptions {
   std::string lighting = "constant";
   int frames = 150;
   double rate = 30.0;  ///< frames per second
+  double pace = 1.0;   ///< how fast the path is travelled, 1: as camera_path.h says
   std::uint64_t seed = 1;
+  /// Before and after these frames a scene of one surface is textured: the view goes blind at once.
+  /// None: it is as it is in all of them.
+  int blind_from = 0;
+  int blind_frames = 0;
   Camera camera = xtionCamera();
   SensorOptions sensor;
 };
@@ -75,13 +80,15 @@ class SequenceGenerator {
   SyntheticFrame next();
 
  private:
+  const Renderer& rendererOf(int frame) const;
   Shutter shutterAt(double t, const ExposureSetting& setting) const;
   ExposureSetting firstSetting() const;
-  cv::Mat film(const PoseAtTime& pose, const Shutter& shutter, const ExposureSetting& setting,
-               std::uint64_t seed) const;
+  cv::Mat film(const Renderer& renderer, const PoseAtTime& pose, const Shutter& shutter,
+               const ExposureSetting& setting, std::uint64_t seed) const;
 
   GeneratorOptions options_;
   Renderer renderer_;
+  std::unique_ptr<Renderer> textured_;  // for the frames that are not blind, if some are
   CameraPath path_;
   SceneLighting lighting_;
   Imager imager_;

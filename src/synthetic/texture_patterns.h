@@ -23,6 +23,8 @@ Texture stoneTexture(const Reflectance& colour, std::uint64_t seed);  ///< polis
 Texture terrazzoTexture(std::uint64_t seed);                          ///< speckled floor
 Texture cardboardTexture(std::uint64_t seed);
 Texture plainTexture(const Reflectance& colour);  ///< no structure at all
+/// Painted stripes of many widths: a function of x alone, or of y alone.
+Texture stripesTexture(bool along_y, std::uint64_t seed);
 
 // Pictures that are stretched over their surface, upright.
 Texture paintingTexture(std::uint64_t seed);     ///< shapes and strokes, as on posters

@@ -104,6 +104,11 @@ class JobTest(unittest.TestCase):
             run_jobs([bad], self.folder, 2)
         self.assertFalse(self.folder.is_done(bad))
 
+    def test_an_exit_code_may_be_a_result(self):
+        run_jobs([Job("one", [shell("echo none; exit 1", ">", "file")], accepted=(0, 1))],
+                 self.folder, 1)
+        self.assertEqual(self.read("file"), "none\n")
+
     def test_a_signal_is_told_too(self):
         with self.assertRaisesRegex(MeasuringError, r"bad: sh failed \(signal 9\)"):
             run_jobs([Job("bad", [shell("kill -9 $$")])], self.folder, 1)

@@ -78,7 +78,7 @@ TEST_F(RunSequenceTest, StatisticsHaveARowPerFrameAndANamePerColumn) {
     EXPECT_NE(header.find(name), std::string::npos) << name;
   }
   // At the end, so that what reads columns by number still finds the others.
-  EXPECT_EQ(header.substr(header.rfind(',')), ",depth_time_offset");
+  EXPECT_EQ(header.substr(header.rfind(',')), ",alignment_covariance_55");
   const auto columns = std::count(header.begin(), header.end(), ',');
   int rows = 0;
   for (std::string row; std::getline(lines, row); ++rows) {

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <opencv2/core.hpp>
+#include <opencv2/imgproc.hpp>
 #include <vector>
 
 #include "mivo/core/error.h"
@@ -14,7 +15,7 @@ namespace {
 
 GeneratorOptions smallOptions() {
   GeneratorOptions options;
-  options.scene = "wall";
+  options.scene = "hallway";
   options.frames = 3;
   options.camera = xtionCamera(160, 120);
   return options;
@@ -141,6 +142,52 @@ TEST(SequenceGenerator, MotionBlurIsTheMeanOverTheExposure) {
   // The samples also spread over the pixel, hence the tolerance: far below what blur changes.
   const double error = cv::norm(image, mean, cv::NORM_L1);
   EXPECT_LT(error, 0.5 * cv::norm(image, still(0.0), cv::NORM_L1));
+}
+
+TEST(SequenceGenerator, TheLensBlursTheLight) {
+  GeneratorOptions options = smallOptions();
+  options.scene = "stripes";
+  options.frames = 1;
+  options.sensor.makeIdeal();
+  options.sensor.gain = 0.7;  // nothing is clipped
+  options.sensor.imager.transfer = Transfer::kLinear;
+  const cv::Mat sharp = film(options)[0].colour;
+  options.sensor.lens_blur = 1.5;
+  cv::Mat expected;
+  cv::GaussianBlur(sharp, expected, cv::Size(), 1.5, 1.5, cv::BORDER_REPLICATE);
+  EXPECT_LE(difference(film(options)[0].colour, expected), 2.0);
+  EXPECT_GT(difference(sharp, expected), 20.0);
+}
+
+TEST(SequenceGenerator, OnlyBlindFramesLoseTheTexture) {
+  GeneratorOptions options = smallOptions();
+  options.scene = "blank";
+  options.trajectory = "slide";
+  options.sensor.makeIdeal();
+  options.frames = 4;
+  options.blind_from = 1;
+  options.blind_frames = 2;
+  const std::vector<SyntheticFrame> frames = film(options);
+  for (std::size_t k = 0; k < frames.size(); ++k) {
+    double low = 0.0;
+    double high = 0.0;
+    cv::minMaxLoc(frames[k].colour.reshape(1), &low, &high);
+    EXPECT_EQ(high - low > 50.0, k == 0 || k == 3) << k << ": " << low << " to " << high;
+  }
+  options.blind_frames = 0;  // blind throughout; the same surface and path
+  const std::vector<SyntheticFrame> blind = film(options);
+  EXPECT_EQ(difference(blind[0].depth, frames[0].depth), 0.0);
+  options.scene = "wall";
+  options.blind_frames = 2;
+  EXPECT_THROW(SequenceGenerator{options}, Error);
+}
+
+TEST(SequenceGenerator, APaceIsPositiveAndNotAbsurd) {
+  GeneratorOptions options = smallOptions();
+  for (const double pace : {0.0, -1.0, std::nan(""), 21.0}) {
+    options.pace = pace;
+    EXPECT_THROW(SequenceGenerator{options}, Error) << pace;
+  }
 }
 
 TEST(SequenceGenerator, RightCameraSeesTheDisparity) {
