@@ -52,9 +52,10 @@ class StampPairer {
   /// @param stamp  s
   void push(ImageStream stream, double stamp, Item item) {
     Queue& queue = queueOf(stream);
-    if (stamp < queue.last - options_.time_jump) startAnew();
+    if (stamp < queue.last) goBack(stamp, queue.last - stamp > options_.time_jump);
     queue.last = stamp;
     queue.gap.add(stamp);
+    queue.next = stamp + leastGap(queue);
     const auto later = std::upper_bound(
         queue.waiting.begin(), queue.waiting.end(), stamp,
         [](double value, const Waiting& waiting) { return value < waiting.stamp; });
@@ -67,7 +68,7 @@ class StampPairer {
 
   /// Nothing older than this is to come in either stream.
   void advance(double stamp) {
-    for (Queue& queue : queues_) queue.last = std::max(queue.last, stamp);
+    for (Queue& queue : queues_) queue.next = std::max(queue.next, stamp);
   }
 
   /// Nothing is to come: everything that waits goes out.
@@ -92,25 +93,31 @@ class StampPairer {
   struct Queue {
     std::deque<Waiting> waiting;  // by stamp
     double last = -kInfinity;     // stamp of the last image that came
+    double next = -kInfinity;     // no image is expected to be older
     StampGap gap;
   };
 
   Queue& queueOf(ImageStream stream) { return queues_[static_cast<std::size_t>(stream)]; }
 
-  /// What waits belongs to the time before, and the other stream goes back, too.
-  void startAnew() {
-    flush();
+  /// An image is older than the one before: others may be, too. After a jump of time what waits
+  /// belongs to the time before.
+  void goBack(double stamp, bool is_jump) {
+    if (is_jump) flush();
     for (Queue& queue : queues_) {
-      queue.last = -kInfinity;
-      queue.gap = StampGap();
+      queue.next = std::min(queue.next, stamp);
+      if (is_jump) queue.last = std::min(queue.last, stamp);
     }
+  }
+
+  double leastGap(const Queue& queue) const {
+    const double learned = options_.learns_gap ? kSurePart * queue.gap.smallest() : 0.0;
+    return std::max(options_.min_gap, learned);
   }
 
   WaitingStamps waitingStamps(const Queue& queue, bool is_end) const {
     WaitingStamps stamps;
     for (const Waiting& waiting : queue.waiting) stamps.stamps.push_back(waiting.stamp);
-    const double learned = options_.learns_gap ? kSurePart * queue.gap.smallest() : 0.0;
-    stamps.next = is_end ? kInfinity : queue.last + std::max(options_.min_gap, learned);
+    stamps.next = is_end ? kInfinity : queue.next;
     return stamps;
   }
 

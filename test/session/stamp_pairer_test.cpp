@@ -160,6 +160,24 @@ TEST_F(StampPairerTest, ALateImageIsTakenWhereItBelongs) {
   EXPECT_EQ(log_, "(0,0)(33,33)(66,66)");
 }
 
+TEST_F(StampPairerTest, ARecordingPlayedBackwardsIsPaired) {
+  for (const bool learns_gap : {false, true}) {
+    PairingOptions options;
+    options.learns_gap = learns_gap;
+    setUp(options);
+    for (int i = 0; i < 12; ++i) {
+      push(kC, 33 * i);
+      push(kD, 33 * i);
+    }
+    log_.clear();
+    for (int i = 3; i > 0; --i) {
+      push(kC, 33 * i);
+      push(kD, 33 * i);
+    }
+    EXPECT_EQ(log_, "(99,99)(66,66)(33,33)");
+  }
+}
+
 TEST_F(StampPairerTest, PairsDoNotCross) {
   setUp({});
   for (const int stamp : {0, 10}) push(kC, stamp);
