@@ -8,7 +8,6 @@
 #include <cmath>
 #include <utility>
 
-#include "ros/frame_queue.h"
 #include "ros/node_topics.h"
 #include "ros/stamp.h"
 
@@ -61,6 +60,9 @@ FrameInput::FrameInput(const ros::NodeHandle& private_node, const NodeParameters
       depth_(private_node, topicBeside(private_node, topics::kDepth), parameters.depth_transport,
              subscriberQueue(parameters),
              [this](const ImageMessageConstPtr& message) { take(ImageStream::kDepth, message); }),
+      early_(parameters.drop_frames ? FrameQueue<ImagePair>::Policy::kNewest
+                                    : FrameQueue<ImagePair>::Policy::kAll,
+             static_cast<std::size_t>(parameters_.queue_size)),
       last_pair_(ros::WallTime::now()),
       next_warning_(kSilence) {
   ros::NodeHandle handle(private_node);
@@ -95,23 +97,21 @@ void FrameInput::countSingle(ImageStream stream) {
 }
 
 void FrameInput::takeCameraInfo(const sensor_msgs::CameraInfoConstPtr& message) {
-  std::deque<ImagePair> early;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     ++camera_info_count_.messages;
     camera_info_count_.last_stamp = message->header.stamp;
     camera_info_count_.last_arrival = ros::WallTime::now();
     camera_info_ = message;
-    early.swap(early_);
   }
-  for (ImagePair& pair : early) deliver(pair);
+  while (early_.size() > 0) deliver(*early_.pop());
 }
 
 void FrameInput::deliver(ImagePair pair) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (!camera_info_) {
-      keepEarly(pair);
+      keepEarly(std::move(pair));
       return;
     }
     pair.camera_info = camera_info_;
@@ -121,16 +121,13 @@ void FrameInput::deliver(ImagePair pair) {
   callback_(pair);
 }
 
-void FrameInput::keepEarly(const ImagePair& pair) {
-  const auto most = static_cast<std::size_t>(parameters_.drop_frames ? 1 : parameters_.queue_size);
-  early_.push_back(pair);
-  if (early_.size() <= most) return;
-  early_.pop_front();
-  if (parameters_.drop_frames) return;
+void FrameInput::keepEarly(ImagePair pair) {
+  early_.push(std::move(pair));
+  if (parameters_.drop_frames || early_.dropped() == 0) return;
   ROS_WARN_THROTTLE(kSilence,
-                    "there is no calibration on %s yet, and more than %zu frames wait for it: the "
-                    "oldest are dropped",
-                    camera_info_count_.topic.c_str(), most);
+                    "there is no calibration on %s yet, and more frames than queue_size (%d) wait "
+                    "for it: the oldest are dropped",
+                    camera_info_count_.topic.c_str(), parameters_.queue_size);
 }
 
 void FrameInput::watch() {

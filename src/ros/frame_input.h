@@ -4,12 +4,12 @@
 #include <ros/node_handle.h>
 
 #include <array>
-#include <deque>
 #include <functional>
 #include <mutex>
 #include <string>
 #include <vector>
 
+#include "ros/frame_queue.h"
 #include "ros/image_port.h"
 #include "ros/node_parameters.h"
 #include "session/stamp_pairer.h"
@@ -54,7 +54,7 @@ class FrameInput {
   void take(ImageStream stream, const ImageMessageConstPtr& message);
   void takeCameraInfo(const sensor_msgs::CameraInfoConstPtr& message);
   void deliver(ImagePair pair);
-  void keepEarly(const ImagePair& pair);
+  void keepEarly(ImagePair pair);
   void countSingle(ImageStream stream);
   void watch();
   std::string explain(double seconds) const;
@@ -73,11 +73,12 @@ class FrameInput {
   ros::Subscriber camera_info_subscriber_;
   ros::WallTimer timer_;
 
+  FrameQueue<ImagePair> early_;  // pairs that came before the calibration
+
   mutable std::mutex mutex_;  // guards what follows
   std::array<InputCount, 2> image_counts_;
   InputCount camera_info_count_;
   sensor_msgs::CameraInfoConstPtr camera_info_;
-  std::deque<ImagePair> early_;  // the newest pairs that came before the calibration
   ros::WallTime last_pair_;
   double next_warning_;  // s of silence
 };
