@@ -70,12 +70,12 @@ Totals track(mivo::SequenceReader& sequence, mivo::PeerOdometry& odometry,
              mivo::TrajectoryWriter& trajectory) {
   Totals totals;
   mivo::Frame frame;
-  std::string fault;
+  mivo::FrameFault fault;
   for (auto status = sequence.next(frame, fault); status != mivo::FrameSource::Status::kEnd;
        status = sequence.next(frame, fault)) {
     if (status == mivo::FrameSource::Status::kSkipped) {
       ++totals.skipped_frames;
-      std::cerr << "skipped: " << fault << "\n";
+      std::cerr << "skipped: " << fault.text << "\n";
       continue;
     }
     const double start = mivo::processMilliseconds();
@@ -87,7 +87,8 @@ Totals track(mivo::SequenceReader& sequence, mivo::PeerOdometry& odometry,
     if (!is_tracked) ++totals.lost;
   }
   if (totals.frames == 0) {
-    throw mivo::Error("there was no frame to track" + (fault.empty() ? fault : ": " + fault));
+    throw mivo::Error("there was no frame to track" +
+                      (fault.text.empty() ? "" : ": " + fault.text));
   }
   return totals;
 }

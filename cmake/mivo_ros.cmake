@@ -15,7 +15,6 @@ find_package(catkin REQUIRED COMPONENTS
   dynamic_reconfigure
   geometry_msgs
   image_transport
-  message_filters
   message_generation
   nav_msgs
   nodelet
@@ -53,7 +52,6 @@ catkin_package(
     dynamic_reconfigure
     geometry_msgs
     image_transport
-    message_filters
     message_runtime
     nav_msgs
     nodelet

@@ -88,8 +88,9 @@ class Experiments:
 
     def track(self, kind, key, method, options=()):
         path = lambda ending: self.run_path(kind, key, method.key, ending)
+        # The errors are those of all frames, lost ones included.
         command = [self.program("run_sequence"), self.sequence(key), "--output", path("txt"),
-                   "--force"] + list(options) + method.words() + [">", path("summary")]
+                   "--force", "--write-lost"] + list(options) + method.words() + [">", path("summary")]
         self.add("track/%s/%s/%s" % (kind, key, method.key),
                  [command] + self.judge(kind, key, path), **self.source(key))
 

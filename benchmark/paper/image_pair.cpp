@@ -23,11 +23,11 @@ class TrueSequence {
   /// Frame number `index`; indices must grow from call to call.
   Frame read(std::size_t index) {
     Frame frame;
-    std::string fault;
+    FrameFault fault;
     for (; next_ <= index; ++next_) {
       const auto status = reader_.next(frame, fault);
       if (status == FrameSource::Status::kEnd) throw Error(folder_ + " has too few frames");
-      if (status == FrameSource::Status::kSkipped) throw Error(fault);
+      if (status == FrameSource::Status::kSkipped) throw Error(fault.text);
     }
     return frame;
   }

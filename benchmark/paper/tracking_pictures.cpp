@@ -68,7 +68,7 @@ void run(int argc, char** argv) {
   mivo::Odometry odometry(reader.camera(), parameters);
   mivo::Frame frame;
   mivo::Frame keyframe_frame;
-  std::string fault;
+  mivo::FrameFault fault;
   long long i = 0;
   for (bool found = false; !found;) {
     const auto status = reader.next(frame, fault);

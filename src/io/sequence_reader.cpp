@@ -9,37 +9,59 @@
 #include "io/png_file.h"
 #include "io/table_reader.h"
 #include "mivo/core/error.h"
-#include "trajectory/association.h"
+#include "session/stamp_order.h"
+#include "session/stamp_pairer.h"
 
 namespace mivo {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kMaxPairDifference = 0.02;  // s
-
-/// One list of images, sorted by stamp.
-struct ImageList {
-  std::vector<double> stamps;
-  std::vector<std::string> paths;
+/// One line of rgb.txt or depth.txt.
+struct ListedImage {
+  double stamp;
+  std::string path;
 };
 
-ImageList readImageList(const fs::path& folder, const char* name) {
-  std::vector<std::pair<double, std::string>> images;
-  TableReader table((folder / name).string());
+void addNotice(std::string& notice, const std::string& text) {
+  if (!notice.empty() && !text.empty()) notice += "; ";
+  notice += text;
+}
+
+/// Puts the lines of a file in the order of their stamps, and says so.
+template <typename Line>
+void orderLines(std::vector<Line>& lines, const fs::path& file, std::string& notice) {
+  try {
+    addNotice(notice, describe(putInOrder(lines), "lines of " + file.string()));
+  } catch (const Error& error) {
+    throw Error(file.string() + ": " + error.what());
+  }
+}
+
+std::vector<ListedImage> readImageList(const fs::path& folder, const char* name,
+                                       std::string& notice) {
+  std::vector<ListedImage> images;
+  const fs::path file = folder / name;
+  TableReader table(file.string());
   while (table.next()) {
     if (table.size() != 2) table.refuse("expected 'stamp path'");
-    images.emplace_back(table.number(0), (folder / table.text(1)).string());
+    images.push_back({table.number(0), (folder / table.text(1)).string()});
   }
-  if (images.empty()) throw Error((folder / name).string() + " lists no image");
-  std::stable_sort(images.begin(), images.end(),
-                   [](const auto& a, const auto& b) { return a.first < b.first; });
-  ImageList list;
-  for (const auto& [stamp, path] : images) {
-    list.stamps.push_back(stamp);
-    list.paths.push_back(path);
-  }
-  return list;
+  if (images.empty()) throw Error(file.string() + " lists no image");
+  orderLines(images, file, notice);
+  return images;
+}
+
+std::vector<double> stampsOf(const std::vector<ListedImage>& images) {
+  std::vector<double> stamps;
+  for (const ListedImage& image : images) stamps.push_back(image.stamp);
+  return stamps;
+}
+
+/// The text without what differs from frame to frame.
+std::string withoutPath(std::string text, const std::string& path, const char* name) {
+  const std::size_t begin = text.find(path);
+  return begin == std::string::npos ? text : text.replace(begin, path.size(), name);
 }
 
 /// Name of the folder itself, also when it was given as "." or with a slash at its end.
@@ -81,6 +103,7 @@ void SequenceReader::readCameraOf(const std::string& folder) {
   const fs::path file = fs::path(folder) / "camera.txt";
   if (fs::exists(file)) {
     camera_ = readCamera(file.string());
+    camera_file_ = "camera.txt";
     return;
   }
   const std::string name = folderName(folder);
@@ -92,6 +115,7 @@ void SequenceReader::readCameraOf(const std::string& folder) {
         "'width height fx fy cx cy depth_units_per_metre [k1 k2 p1 p2 k3]' into camera.txt");
   }
   camera_ = *known;
+  camera_file_ = "TUM's published camera";
   notice_ = folder +
             " has no camera.txt: the published camera of TUM's sequences is taken, by the folder's "
             "name " +
@@ -110,14 +134,15 @@ void SequenceReader::readEntries(const std::string& folder) {
     entries_.push_back(
         {table.number(0), (base / table.text(1)).string(), (base / table.text(3)).string()});
   }
-  if (entries_.empty()) throw Error((base / "associations.txt").string() + " lists no frame");
+  if (entries_.empty()) throw Error(table.path() + " lists no frame");
+  orderLines(entries_, table.path(), notice_);
 }
 
 void SequenceReader::pairEntries(const std::string& folder) {
-  const ImageList images = readImageList(folder, "rgb.txt");
-  const ImageList depths = readImageList(folder, "depth.txt");
-  for (const auto& [i, j] : associate(images.stamps, depths.stamps, kMaxPairDifference)) {
-    entries_.push_back({images.stamps[i], images.paths[i], depths.paths[j]});
+  const std::vector<ListedImage> images = readImageList(folder, "rgb.txt", notice_);
+  const std::vector<ListedImage> depths = readImageList(folder, "depth.txt", notice_);
+  for (const auto& [i, j] : pairByStamp(stampsOf(images), stampsOf(depths))) {
+    entries_.push_back({images[i].stamp, images[i].path, depths[j].path});
   }
   if (entries_.empty()) {
     throw Error(folder +
@@ -173,16 +198,25 @@ std::string SequenceReader::sizeFault(const Frame& frame, const Entry& entry) co
   return {};
 }
 
-FrameSource::Status SequenceReader::next(Frame& frame, std::string& fault) {
+FrameSource::Status SequenceReader::next(Frame& frame, FrameFault& fault) {
   if (next_ >= entries_.size()) return Status::kEnd;
   const Entry& entry = entries_[next_++];
+  std::string text;
   try {
     frame = read(entry);
-    fault = sizeFault(frame, entry);
+    text = sizeFault(frame, entry);
   } catch (const Error& error) {
-    fault = error.what();
+    text = error.what();
   }
-  return fault.empty() ? Status::kFrame : Status::kSkipped;
+  if (text.empty()) return Status::kFrame;
+  fault.text = text;
+  fault.reason = withoutPath(withoutPath(text, entry.image_path, "the colour image"),
+                             entry.depth_path, "the depth image");
+  return Status::kSkipped;
+}
+
+std::string SequenceReader::depthUnit() const {
+  return fmt::format("{}: {} units per metre", camera_file_, camera_.depth_units_per_metre);
 }
 
 }  // namespace mivo

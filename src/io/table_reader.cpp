@@ -7,10 +7,17 @@
 #include <filesystem>
 #include <locale>
 #include <sstream>
+#include <string_view>
 
 #include "mivo/core/error.h"
 
 namespace mivo {
+namespace {
+
+// What some editors put before the first character of a file.
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
+
+}  // namespace
 
 TableReader::TableReader(const std::string& path) : path_(path) {
   // A folder opens like a file and only fails when it is read.
@@ -22,7 +29,7 @@ TableReader::TableReader(const std::string& path) : path_(path) {
 
 bool TableReader::next() {
   for (std::string line; std::getline(stream_, line);) {
-    ++line_;
+    if (++line_ == 1 && line.rfind(kByteOrderMark, 0) == 0) line.erase(0, kByteOrderMark.size());
     for (char& character : line) {
       if (character == ',' || character == '\t' || character == '\r') character = ' ';
     }

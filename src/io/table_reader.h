@@ -18,6 +18,7 @@ class TableReader {
   /// Goes to the next record; false at the end. Throws Error when the file cannot be read on.
   bool next();
 
+  const std::string& path() const { return path_; }
   std::size_t size() const { return fields_.size(); }
   const std::string& text(std::size_t field) const { return fields_.at(field); }
 

@@ -59,6 +59,9 @@ void run(int argc, char** argv) {
   if (!line.parse(argc, argv)) return;
 
   mivo::BagSource source(bag, topics);
+  if (!source.notice().empty()) {
+    std::cerr << "bag_to_sequence: note: " << source.notice() << "\n";
+  }
   mivo::SequenceWriter writer(folder, {source.camera(), source.depthUnitsPerMetre()},
                               force ? mivo::Overwrite::kYes : mivo::Overwrite::kNo);
   writeFrames(source, writer);

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <iostream>
 #include <string>
 
 #include "programs/bag_options.h"
@@ -23,7 +22,7 @@ void run(int argc, char** argv) {
   const mivo::TrackingOptions options = tracking.options(line);
 
   mivo::BagSource source(bag, topics, options.range);
-  print(std::cout, trackFrames(source, options));
+  mivo::runTracking("run_bag", source, options);
 }
 
 }  // namespace

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <iostream>
 #include <string>
 
 #include "mivo/io/sequence_reader.h"
@@ -20,8 +19,7 @@ void run(int argc, char** argv) {
   const mivo::TrackingOptions options = tracking.options(line);
 
   mivo::SequenceReader sequence(folder, options.range);
-  if (!sequence.notice().empty()) std::cerr << "run_sequence: note: " << sequence.notice() << "\n";
-  print(std::cout, trackFrames(sequence, options));
+  mivo::runTracking("run_sequence", sequence, options);
 }
 
 }  // namespace

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "programs/tracking_run.h"
 
+#include <fmt/format.h>
+
 #include <iostream>
-#include <memory>
 #include <opencv2/core/utility.hpp>
 
 #include "core/execution/cpu_clock.h"
-#include "evaluation/statistics.h"
-#include "mivo/core/error.h"
 #include "mivo/core/odometry.h"
 #include "mivo/io/trajectory_io.h"
 #include "programs/progress_bar.h"
@@ -16,29 +15,7 @@
 namespace mivo {
 namespace {
 
-constexpr std::size_t kToldFaults = 10;  // skipped frames told one by one; the rest only count
-
-void count(const TrackingResult& result, TrackingSummary& summary) {
-  ++summary.frames;
-  switch (result.state) {
-    case TrackingState::kInitialising:
-      ++summary.initialising;
-      break;
-    case TrackingState::kTracking:
-      ++summary.tracked;
-      break;
-    case TrackingState::kDegraded:
-      ++summary.degraded;
-      break;
-    case TrackingState::kLost:
-      ++summary.lost;
-      break;
-  }
-  summary.keyframes = result.keyframes;
-  summary.segments = result.segment + 1;
-  summary.rolling_shutter_readout = result.rolling_shutter_readout;
-  summary.depth_time_offset = result.depth_time_offset;
-}
+constexpr std::size_t kToldReasons = 10;  // to skip a frame; further ones are only counted
 
 const TrackingResult& process(Odometry& odometry, const Frame& frame,
                               std::optional<Disturbance>& disturbance) {
@@ -47,63 +24,98 @@ const TrackingResult& process(Odometry& odometry, const Frame& frame,
   return odometry.process(frame, odometry.predictedPose(frame.stamp) * disturbance->next());
 }
 
+/// What was wrong with a frame that the odometry refused.
+FrameFault refusalOf(const Frame& frame, const TrackingResult& result, const Camera& camera) {
+  const std::string reason = result.reason == TrackingReason::kInvalidFrame
+                                 ? findFault(frame, camera)
+                                 : describeReason(result);
+  return {fmt::format("frame of stamp {:.6f}: {}", frame.stamp, reason), reason};
+}
+
+bool isWritten(const TrackingResult& result, const TrackingOptions& options) {
+  return result.isMeasured() || (options.write_lost && result.state == TrackingState::kLost);
+}
+
+/// Everything that a frame of the run goes to.
+class TrackingRun {
+ public:
+  TrackingRun(const FrameSource& source, const TrackingOptions& options);
+
+  void track(const Frame& frame);
+  void skip(const FrameFault& fault);
+  const TrackingSummary& summary() const { return summary_; }
+
+ private:
+  const TrackingOptions& options_;
+  Odometry odometry_;
+  std::optional<TrajectoryWriter> trajectory_;
+  std::optional<StatisticsFile> statistics_;
+  std::optional<Disturbance> disturbance_;
+  ProgressBar progress_;
+  TrackingSummary summary_;
+};
+
+TrackingRun::TrackingRun(const FrameSource& source, const TrackingOptions& options)
+    : options_(options),
+      odometry_(source.camera(), options.parameters),
+      disturbance_(options.disturbance),
+      progress_(source.size()) {
+  const Overwrite overwrite = options.force ? Overwrite::kYes : Overwrite::kNo;
+  if (!options.statistics.empty()) refuseExisting(options.statistics, overwrite);
+  trajectory_.emplace(options.output, overwrite);
+  if (options.statistics.empty()) return;
+  statistics_.emplace(options.statistics, overwrite, options.parameters.alignment.levels);
+}
+
+void TrackingRun::track(const Frame& frame) {
+  const double start = processMilliseconds();
+  const TrackingResult& result = process(odometry_, frame, disturbance_);
+  const double cpu_ms = processMilliseconds() - start;
+  if (result.isRefused()) {
+    skip(refusalOf(frame, result, odometry_.camera()));
+    return;
+  }
+  if (isWritten(result, options_)) trajectory_->write({frame.stamp, result.T_odom_camera});
+  if (statistics_) statistics_->write(frame.stamp, result, cpu_ms);
+  summary_.add(frame, result, cpu_ms);
+  progress_.advance();
+}
+
+void TrackingRun::skip(const FrameFault& fault) {
+  if (summary_.addSkipped(fault.reason) && summary_.skipped.size() <= kToldReasons) {
+    progress_.clear();
+    std::cerr << "skipped: " << fault.text << "\n";
+  }
+  progress_.advance();
+}
+
 }  // namespace
 
 TrackingSummary trackFrames(FrameSource& source, const TrackingOptions& options) {
   // OpenCV warns of more threads than there are processors; the result is the same.
   cv::setNumThreads(std::min(options.parameters.alignment.threads, cv::getNumberOfCPUs()));
-  const Overwrite overwrite = options.force ? Overwrite::kYes : Overwrite::kNo;
-  Odometry odometry(source.camera(), options.parameters);
-  if (!options.statistics.empty()) refuseExisting(options.statistics, overwrite);
-  TrajectoryWriter trajectory(options.output, overwrite);
-  std::unique_ptr<StatisticsFile> statistics;
-  if (!options.statistics.empty()) {
-    statistics = std::make_unique<StatisticsFile>(options.statistics, overwrite,
-                                                  options.parameters.alignment.levels);
-  }
-  std::optional<Disturbance> disturbance = options.disturbance;
-  ProgressBar progress(source.size());
-  TrackingSummary summary;
-  std::vector<double> cpu_times;
+  TrackingRun run(source, options);
   Frame frame;
-  std::string fault;
+  FrameFault fault;
   for (auto status = source.next(frame, fault); status != FrameSource::Status::kEnd;
        status = source.next(frame, fault)) {
-    if (status == FrameSource::Status::kSkipped) {
-      progress.clear();
-      if (++summary.skipped_frames <= kToldFaults) std::cerr << "skipped: " << fault << "\n";
-      progress.advance();
-      continue;
+    if (status == FrameSource::Status::kFrame) {
+      run.track(frame);
+    } else {
+      run.skip(fault);
     }
-    const double start = processMilliseconds();
-    const TrackingResult& result = process(odometry, frame, disturbance);
-    cpu_times.push_back(processMilliseconds() - start);
-    trajectory.write({frame.stamp, result.T_odom_camera});
-    if (statistics) statistics->write(frame.stamp, result, cpu_times.back());
-    count(result, summary);
-    progress.advance();
   }
-  if (summary.frames == 0) {
-    throw Error("there was no frame to track" + (fault.empty() ? fault : ": " + fault));
-  }
-  summary.cpu_ms_median = quantile(cpu_times, 0.5);
-  summary.cpu_ms_p95 = quantile(cpu_times, 0.95);
-  return summary;
+  return run.summary();
 }
 
-void print(std::ostream& stream, const TrackingSummary& summary) {
-  stream << "frames: " << summary.frames << "\n"
-         << "initialising: " << summary.initialising << "\n"
-         << "tracked: " << summary.tracked << "\n"
-         << "degraded: " << summary.degraded << "\n"
-         << "lost: " << summary.lost << "\n"
-         << "skipped_frames: " << summary.skipped_frames << "\n"
-         << "keyframes: " << summary.keyframes << "\n"
-         << "segments: " << summary.segments << "\n"
-         << "rolling_shutter_readout_s: " << summary.rolling_shutter_readout << "\n"
-         << "depth_time_offset_s: " << summary.depth_time_offset << "\n"
-         << "cpu_ms_median: " << summary.cpu_ms_median << "\n"
-         << "cpu_ms_p95: " << summary.cpu_ms_p95 << "\n";
+void runTracking(const std::string& program, FrameSource& source, const TrackingOptions& options) {
+  if (!source.notice().empty()) std::cerr << program << ": note: " << source.notice() << "\n";
+  const TrackingSummary summary = trackFrames(source, options);
+  print(std::cout, summary);
+  const DepthParameters& depth = options.parameters.depth;
+  requireTracked(summary, depth, source.depthUnit());
+  const std::string fault = findDepthFault(summary, depth, source.depthUnit());
+  if (!fault.empty()) std::cerr << program << ": note: " << fault << "\n";
 }
 
 }  // namespace mivo

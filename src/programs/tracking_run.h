@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <cstddef>
-#include <iosfwd>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,6 +10,7 @@
 #include "mivo/io/frame_source.h"
 #include "programs/command_line.h"
 #include "programs/disturbance.h"
+#include "programs/tracking_summary.h"
 
 // What run_sequence and run_bag have in common: everything but where the frames come from.
 
@@ -19,9 +18,10 @@ namespace mivo {
 
 /// What to do with the frames of a source.
 struct TrackingOptions {
-  std::string output;      ///< trajectory file
-  std::string statistics;  ///< CSV file; empty: none
-  bool force = false;      ///< existing files may be overwritten
+  std::string output;       ///< trajectory file
+  std::string statistics;   ///< CSV file; empty: none
+  bool force = false;       ///< existing files may be overwritten
+  bool write_lost = false;  ///< the guessed poses of lost frames are written, too
   Parameters parameters;
   FrameRange range;  ///< for the source: trackFrames takes all that the source delivers
   std::optional<Disturbance> disturbance;
@@ -51,31 +51,17 @@ class TrackingCommandLine {
   std::string threads_;
   long long seed_ = 0;
   bool force_ = false;
-};
-
-/// Totals over a run.
-struct TrackingSummary {
-  std::size_t frames = 0;  ///< with a pose, whatever their state; skipped ones are not among them
-  std::size_t initialising = 0;
-  std::size_t tracked = 0;
-  std::size_t degraded = 0;
-  std::size_t lost = 0;
-  std::size_t skipped_frames = 0;  ///< broken ones, for which the source could give no image
-  int keyframes = 0;
-  int segments = 0;
-  double rolling_shutter_readout = 0.0;  ///< s, at the end; 0: global shutter
-  double depth_time_offset = 0.0;        ///< s, at the end: given or estimated
-  double cpu_ms_median = 0.0;  ///< of the process, all threads, from decoded images to the pose
-  double cpu_ms_p95 = 0.0;
+  bool write_lost_ = false;
 };
 
 /// Tracks all frames of the source and writes trajectory and statistics line by line: what has been
-/// computed is on disk whatever happens later. Skipped frames are told on stderr. Throws Error when
-/// a file exists (without `force`) or cannot be written, when the source fails, or when it did not
-/// deliver a single frame.
+/// computed is on disk whatever happens later. Measured poses are written, and those of lost frames
+/// when the options say so. Skipped frames are told on stderr, once per reason. Throws Error when a
+/// file exists (without `force`) or cannot be written, or when the source fails.
 TrackingSummary trackFrames(FrameSource& source, const TrackingOptions& options);
 
-/// Lines `name: value`.
-void print(std::ostream& stream, const TrackingSummary& summary);
+/// The body of a program: the same with all that is to be said on stdout and stderr. Throws Error,
+/// too, when nothing was tracked, see requireTracked().
+void runTracking(const std::string& program, FrameSource& source, const TrackingOptions& options);
 
 }  // namespace mivo

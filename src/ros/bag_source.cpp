@@ -13,12 +13,11 @@
 #include "ros/pose_conversion.h"
 #include "ros/stamp.h"
 #include "ros/topics.h"
-#include "trajectory/association.h"
+#include "session/stamp_order.h"
+#include "session/stamp_pairer.h"
 
 namespace mivo {
 namespace {
-
-constexpr double kMaxPairDifference = 0.02;  // s, as for sequence folders
 
 void open(rosbag::Bag& bag, const std::string& path) {
   try {
@@ -86,25 +85,36 @@ void BagSource::readCamera() {
   throw Error("there is no message on the topic " + topics_.camera_info);
 }
 
-std::vector<BagSource::Message> BagSource::readIndex(const std::string& topic) const {
+std::vector<BagSource::Message> BagSource::readIndex(const std::string& topic) {
+  struct Indexed {
+    double stamp;
+    std::size_t index;  // instances cannot be assigned, thus not sorted
+  };
   rosbag::View view(bag_, rosbag::TopicQuery(topic));
   std::vector<rosbag::MessageInstance> instances(view.begin(), view.end());
-  std::vector<std::pair<double, std::size_t>>
-      order;  // instances cannot be assigned, thus not sorted
+  std::vector<Indexed> order;
   for (std::size_t i = 0; i < instances.size(); ++i) {
-    order.emplace_back(toSeconds(instantiate<HeaderOnly>(instances[i])->header.stamp), i);
+    order.push_back({toSeconds(instantiate<HeaderOnly>(instances[i])->header.stamp), i});
   }
-  std::sort(order.begin(), order.end());
+  StampOrder changes;
+  try {
+    changes = putInOrder(order);
+  } catch (const Error& error) {
+    throw Error("the images on " + topic + ": " + error.what());
+  }
+  changes.was_sorted = true;  // a bag has them as they came in, which nobody needs to know
+  const std::string text = describe(changes, "images on " + topic);
+  if (!text.empty()) notice_ += (notice_.empty() ? path_ + ": " : "; ") + text;
   std::vector<Message> messages;
   messages.reserve(order.size());
-  for (const auto& [stamp, index] : order) messages.push_back({stamp, instances[index]});
+  for (const Indexed& item : order) messages.push_back({item.stamp, instances[item.index]});
   return messages;
 }
 
 void BagSource::findPairs(const FrameRange& range) {
   const std::vector<Message> colours = readIndex(topics_.colour);
   const std::vector<Message> depths = readIndex(topics_.depth);
-  for (const auto& [i, j] : associate(stampsOf(colours), stampsOf(depths), kMaxPairDifference)) {
+  for (const auto& [i, j] : pairByStamp(stampsOf(colours), stampsOf(depths))) {
     pairs_.push_back({colours[i], depths[j]});
   }
   if (pairs_.empty()) {
@@ -129,22 +139,23 @@ BagSource::Images BagSource::read(const Pair& pair) {
   return {colour_->toColourImage(), depth_->toDepthImage()};
 }
 
-FrameSource::Status BagSource::next(Frame& frame, std::string& fault) {
-  fault.clear();
+FrameSource::Status BagSource::next(Frame& frame, FrameFault& fault) {
   if (next_ >= pairs_.size()) return Status::kEnd;
   const Pair& pair = pairs_[next_++];
+  std::string reason;
   try {
     const Images images = read(pair);
     frame.stamp = pair.colour.stamp;
     frame.image = toGrey(images.colour.image, images.colour.order);
     frame.depth = images.depth.image;
     frame.depth_unit = images.depth.unit;
-    fault = findFault(frame, camera_);
+    reason = findFault(frame, camera_);
   } catch (const std::exception& error) {
-    fault = error.what();
+    reason = error.what();
   }
-  if (fault.empty()) return Status::kFrame;
-  fault = path_ + ", frame of stamp " + std::to_string(pair.colour.stamp) + ": " + fault;
+  if (reason.empty()) return Status::kFrame;
+  fault.text = path_ + ", frame of stamp " + std::to_string(pair.colour.stamp) + ": " + reason;
+  fault.reason = reason;
   return Status::kSkipped;
 }
 

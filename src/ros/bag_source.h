@@ -15,14 +15,14 @@
 
 namespace mivo {
 
-/// Frames of a bag: each colour image with the depth image nearest in time, less than 20 ms away,
-/// as a sequence folder without associations gives them. Read message by message, never the whole
+/// Frames of a bag: each colour image with the depth image nearest in time, 20 ms away at most, as
+/// a sequence folder without associations gives them. Read message by message, never the whole
 /// bag.
 class BagSource : public FrameSource {
  public:
   /// @param wanted  topics; empty names are looked for (findTopics)
   /// Throws Error when the bag cannot be read, has not these topics, no usable calibration, no
-  /// pair, or no frame in the range.
+  /// pair, no frame in the range, or when all stamps of a topic are the same.
   BagSource(const std::string& path, const RgbdTopics& wanted, const FrameRange& range = {});
 
   const Camera& camera() const override { return camera_; }
@@ -30,7 +30,10 @@ class BagSource : public FrameSource {
 
   /// The images of the frame refer to the bag's messages, which live until the next call. A frame
   /// is skipped when one of its messages is malformed.
-  Status next(Frame& frame, std::string& fault) override;
+  Status next(Frame& frame, FrameFault& fault) override;
+
+  std::string depthUnit() const override { return "16UC1 is millimetres, 32FC1 metres"; }
+  const std::string& notice() const override { return notice_; }
 
   const RgbdTopics& topics() const { return topics_; }
 
@@ -64,12 +67,13 @@ class BagSource : public FrameSource {
  private:
   void findPairs(const FrameRange& range);
   void readCamera();
-  std::vector<Message> readIndex(const std::string& topic) const;
+  std::vector<Message> readIndex(const std::string& topic);
 
   std::string path_;
   rosbag::Bag bag_;
   RgbdTopics topics_;
   Camera camera_;
+  std::string notice_;
   std::vector<Pair> pairs_;
   std::size_t next_ = 0;
   // Keep the pixels of the last frame alive.

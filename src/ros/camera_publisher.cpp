@@ -52,6 +52,19 @@ void convertToMetres(const ImageView& view, std::vector<std::uint8_t>& data) {
   }
 }
 
+/// By device stamps: whole microseconds that always grow.
+PairingOptions pairingOptions(double tolerance) {
+  PairingOptions options;
+  // Half a step more: the tolerance itself is within, whatever the rounding.
+  options.max_difference = tolerance + 0.5 / kMicrosecondsPerSecond;
+  options.capacity = kMaxWaiting;
+  options.time_jump = 0.0;  // the device's clock went back
+  // The tolerance is less than half a period, or neighbours would be taken for partners. So nothing
+  // that is still to come fits better than an image within it.
+  options.min_gap = 2.0 * options.max_difference;
+  return options;
+}
+
 ros::Time toRosTime(std::int64_t nanoseconds) {
   ros::Time time;
   time.fromNSec(static_cast<std::uint64_t>(nanoseconds));
@@ -94,13 +107,11 @@ CameraPublisher::CameraPublisher(ros::NodeHandle node, const CameraParameters& p
       on_demand_(std::move(on_demand)),
       color_calibration_(ros::NodeHandle(node, "rgb"), "rgb", parameters.rgb_camera_info_url),
       pairer_(
-          static_cast<std::uint64_t>(parameters.pair_tolerance * kMicrosecondsPerSecond),
-          kMaxWaiting,
-          [this](Pairer::Entry& color, Pairer::Entry& depth) { publishPair(color, depth); },
-          [this](StreamKind kind, Pairer::Entry& entry) {
-            publish(kind, entry.image);
-            const std::lock_guard<std::mutex> lock(statistics_mutex_);
-            ++statistics_.singles;
+          pairingOptions(parameters.pair_tolerance),
+          [this](PublishedImage& color, PublishedImage& depth) { publishPair(color, depth); },
+          [this](ImageStream stream, PublishedImage& image) {
+            publishSingle(stream == ImageStream::kColour ? StreamKind::kColor : StreamKind::kDepth,
+                          image);
           }) {
   if (!registered_) {
     depth_calibration_ = std::make_unique<CameraCalibration>(
@@ -163,25 +174,33 @@ void CameraPublisher::add(const ImageView& view, std::int64_t stamp) {
   message->header.frame_id = is_color ? color_frame_ : depth_frame_;
   message->header.stamp = toRosTime(stamp);
   if (color_wanted_ && depth_wanted_) {
-    pairer_.add(view.kind, view.device_stamp, std::move(message));
+    pairer_.push(is_color ? ImageStream::kColour : ImageStream::kDepth,
+                 static_cast<double>(view.device_stamp) / kMicrosecondsPerSecond,
+                 {std::move(message), view.device_stamp});
   } else {
     pairer_.flush();
     publish(view.kind, message);
   }
 }
 
-void CameraPublisher::publishPair(Pairer::Entry& color, Pairer::Entry& depth) {
-  const auto offset = static_cast<std::int64_t>(depth.stamp - color.stamp);
+void CameraPublisher::publishPair(const PublishedImage& color, const PublishedImage& depth) {
+  const auto offset = static_cast<std::int64_t>(depth.device_stamp - color.device_stamp);
   if (static_cast<std::uint64_t>(std::abs(offset)) <= kSameExposure) {
-    depth.image->header.stamp = color.image->header.stamp;
+    depth.message->header.stamp = color.message->header.stamp;
   }
   {
     const std::lock_guard<std::mutex> lock(statistics_mutex_);
     ++statistics_.pairs;
     statistics_.offset = static_cast<double>(offset) / kMicrosecondsPerSecond;
   }
-  publish(StreamKind::kColor, color.image);
-  publish(StreamKind::kDepth, depth.image);
+  publish(StreamKind::kColor, color.message);
+  publish(StreamKind::kDepth, depth.message);
+}
+
+void CameraPublisher::publishSingle(StreamKind kind, const PublishedImage& image) {
+  publish(kind, image.message);
+  const std::lock_guard<std::mutex> lock(statistics_mutex_);
+  ++statistics_.singles;
 }
 
 void CameraPublisher::publish(StreamKind kind, const sensor_msgs::ImagePtr& image) {

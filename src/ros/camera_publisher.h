@@ -12,9 +12,9 @@
 #include <string>
 
 #include "openni2/camera_session.h"
-#include "openni2/frame_pairer.h"
 #include "ros/camera_calibration.h"
 #include "ros/camera_parameters.h"
+#include "session/stamp_pairer.h"
 
 namespace mivo {
 
@@ -48,11 +48,16 @@ class CameraPublisher {
   PairStatistics statistics() const;
 
  private:
-  using Pairer = FramePairer<sensor_msgs::ImagePtr>;
+  /// An image that waits for its partner.
+  struct PublishedImage {
+    sensor_msgs::ImagePtr message;
+    std::uint64_t device_stamp;  ///< microseconds
+  };
 
   void advertise(ros::NodeHandle node, bool registration);
   void updateDemand();  // called behind the gate
-  void publishPair(Pairer::Entry& color, Pairer::Entry& depth);
+  void publishPair(const PublishedImage& color, const PublishedImage& depth);
+  void publishSingle(StreamKind kind, const PublishedImage& image);
   void publish(StreamKind kind, const sensor_msgs::ImagePtr& image);
 
   const std::string color_frame_;
@@ -76,7 +81,7 @@ class CameraPublisher {
   std::atomic<double> color_time_offset_{0.0};
   std::atomic<double> depth_time_offset_{0.0};
 
-  Pairer pairer_;  // the camera thread's own
+  StampPairer<PublishedImage> pairer_;  // the camera thread's own
   mutable std::mutex statistics_mutex_;
   PairStatistics statistics_;
 };

@@ -10,20 +10,14 @@
 
 #include "ros/node_topics.h"
 #include "ros/stamp.h"
-#include "trajectory/association.h"
 
 namespace mivo {
 namespace {
 
-// A stamp that is older than the last one by more than this means that time was set back.
-constexpr double kTimeJump = 1.0;  // s
-constexpr double kSilence = 5.0;   // s without a pair before a warning
+constexpr double kSilence = 5.0;  // s without a pair before a warning
 // Without a message for this long no better partner will come for what is waiting.
 constexpr double kIdle = 0.5;          // s
 constexpr double kWatchPeriod = 0.25;  // s
-
-// Part of the smallest period so far within which no further image of a topic is expected.
-constexpr double kSurePart = 0.9;
 
 // Where no frame may be lost, one topic may run ahead of the other by this many images at least.
 constexpr int kQueueWithoutLoss = 100;
@@ -35,29 +29,17 @@ NodeParameters withLongQueue(NodeParameters parameters) {
   return parameters;
 }
 
-std::uint32_t subscriberQueue(const NodeParameters& parameters) {
-  return parameters.drop_frames ? static_cast<std::uint32_t>(parameters.queue_size)
-                                : 0;  // 0: no end
+int subscriberQueue(const NodeParameters& parameters) {
+  return parameters.drop_frames ? parameters.queue_size : static_cast<int>(kMaxBacklog);
 }
 
-std::vector<double> stampsOf(const std::deque<ImageMessageConstPtr>& messages) {
-  std::vector<double> stamps;
-  for (const ImageMessageConstPtr& message : messages) {
-    stamps.push_back(toSeconds(message->header.stamp));
-  }
-  return stamps;
-}
-
-bool isEarlier(const ImageMessageConstPtr& a, const ImageMessageConstPtr& b) {
-  return a->header.stamp < b->header.stamp;
-}
-
-void forgetUntil(std::deque<ImageMessageConstPtr>& messages, const ros::Time& stamp) {
-  messages.erase(std::remove_if(messages.begin(), messages.end(),
-                                [&](const ImageMessageConstPtr& message) {
-                                  return message->header.stamp <= stamp;
-                                }),
-                 messages.end());
+PairingOptions pairingOptions(const NodeParameters& parameters) {
+  PairingOptions options;
+  options.max_difference = parameters.approximate_sync ? parameters.sync_tolerance : 0.0;
+  options.capacity = static_cast<std::size_t>(parameters.queue_size);
+  // Live, a pair need not wait a whole period for an image that is not expected to fit better.
+  options.learns_gap = parameters.drop_frames;
+  return options;
 }
 
 }  // namespace
@@ -66,133 +48,70 @@ FrameInput::FrameInput(const ros::NodeHandle& private_node, const NodeParameters
                        PairCallback callback)
     : parameters_(withLongQueue(parameters)),
       callback_(std::move(callback)),
+      pairer_(
+          pairingOptions(parameters_),
+          [this](ImageMessageConstPtr& colour, ImageMessageConstPtr& depth) {
+            deliver({colour, depth, nullptr});
+          },
+          [this](ImageStream stream, ImageMessageConstPtr&) { countSingle(stream); }),
       colour_(private_node, topicBeside(private_node, topics::kColour), parameters.rgb_transport,
-              static_cast<int>(subscriberQueue(parameters)),
-              [this](const ImageMessageConstPtr& message) {
-                observe(message, waiting_colour_);
-                expect(0, waiting_colour_, message->header.stamp);
-              }),
+              subscriberQueue(parameters),
+              [this](const ImageMessageConstPtr& message) { take(ImageStream::kColour, message); }),
       depth_(private_node, topicBeside(private_node, topics::kDepth), parameters.depth_transport,
-             static_cast<int>(subscriberQueue(parameters)),
-             [this](const ImageMessageConstPtr& message) {
-               observe(message, waiting_depth_);
-               expect(1, waiting_depth_, message->header.stamp);
-             }),
+             subscriberQueue(parameters),
+             [this](const ImageMessageConstPtr& message) { take(ImageStream::kDepth, message); }),
+      early_(parameters.drop_frames ? FrameQueue<ImagePair>::Policy::kNewest
+                                    : FrameQueue<ImagePair>::Policy::kAll,
+             static_cast<std::size_t>(parameters_.queue_size)),
       last_pair_(ros::WallTime::now()),
       next_warning_(kSilence) {
   ros::NodeHandle handle(private_node);
   const std::string camera_info_topic = topicBeside(private_node, topics::kCameraInfo);
-  waiting_colour_.count.topic = colour_.topic();
-  waiting_depth_.count.topic = depth_.topic();
+  countOf(ImageStream::kColour).topic = colour_.topic();
+  countOf(ImageStream::kDepth).topic = depth_.topic();
   camera_info_count_.topic = handle.resolveName(camera_info_topic);
-  connect();
-  const boost::function<void(const sensor_msgs::CameraInfoConstPtr&)> take =
+  const boost::function<void(const sensor_msgs::CameraInfoConstPtr&)> take_info =
       [this](const sensor_msgs::CameraInfoConstPtr& message) { takeCameraInfo(message); };
   camera_info_subscriber_ = handle.subscribe<sensor_msgs::CameraInfo>(
-      camera_info_topic, static_cast<std::uint32_t>(parameters.queue_size), take);
+      camera_info_topic, static_cast<std::uint32_t>(parameters.queue_size), take_info);
   colour_.subscribe(private_node);
   depth_.subscribe(private_node);
   timer_ = handle.createWallTimer(ros::WallDuration(kWatchPeriod),
                                   [this](const ros::WallTimerEvent&) { watch(); });
 }
 
-void FrameInput::connect() {
-  approximate_.reset();
-  exact_.reset();
-  const auto queue_size = static_cast<std::uint32_t>(parameters_.queue_size);
-  if (parameters_.approximate_sync) {
-    Approximate policy(queue_size);
-    policy.setMaxIntervalDuration(ros::Duration(parameters_.sync_tolerance));
-    approximate_ = std::make_unique<message_filters::Synchronizer<Approximate>>(
-        std::as_const(policy), colour_, depth_);
-    approximate_->registerCallback(&FrameInput::takePair, this);
-  } else {
-    const Exact policy(queue_size);
-    exact_ = std::make_unique<message_filters::Synchronizer<Exact>>(std::as_const(policy), colour_,
-                                                                    depth_);
-    exact_->registerCallback(&FrameInput::takePair, this);
-  }
-}
-
-void FrameInput::observe(const ImageMessageConstPtr& message, Waiting& waiting) {
-  bool jumped = false;
+void FrameInput::take(ImageStream stream, const ImageMessageConstPtr& message) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    InputCount& count = waiting.count;
-    jumped = count.messages > 0 && (count.last_stamp - message->header.stamp).toSec() > kTimeJump;
+    InputCount& count = countOf(stream);
     ++count.messages;
     count.last_stamp = message->header.stamp;
     count.last_arrival = ros::WallTime::now();
   }
-  if (jumped) {
-    // The images before the jump would wait for ever. The other topic jumps too: let it.
-    deliverWaiting();
-    const std::lock_guard<std::mutex> lock(mutex_);
-    waiting_colour_.count.last_stamp = waiting_depth_.count.last_stamp = message->header.stamp;
-  }
+  pairer_.push(stream, toSeconds(message->header.stamp), message);
+}
+
+void FrameInput::countSingle(ImageStream stream) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  waiting.messages.push_back(message);
-  while (waiting.messages.size() > static_cast<std::size_t>(parameters_.queue_size)) {
-    waiting.messages.pop_front();
-  }
-}
-
-// Colour and depth that are not taken together could each get a better partner with the next image,
-// and a pair would wait for it, a whole period. Live, that next image is not expected sooner than
-// nine tenths of its period after the last: what it cannot better goes on at once.
-void FrameInput::expect(int input, Waiting& waiting, const ros::Time& stamp) {
-  waiting.gap.add(stamp);
-  if (approximate_ && parameters_.drop_frames) {
-    approximate_->setInterMessageLowerBound(input, waiting.gap.smallest() * kSurePart);
-  }
-}
-
-void FrameInput::takePair(const ImageMessageConstPtr& colour, const ImageMessageConstPtr& depth) {
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    forgetUntil(waiting_colour_.messages, colour->header.stamp);
-    forgetUntil(waiting_depth_.messages, depth->header.stamp);
-  }
-  deliver({colour, depth, nullptr});
-}
-
-void FrameInput::deliverWaiting() {
-  std::deque<ImageMessageConstPtr> colours;
-  std::deque<ImageMessageConstPtr> depths;
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    colours.swap(waiting_colour_.messages);
-    depths.swap(waiting_depth_.messages);
-  }
-  connect();  // forgets them too
-  if (!parameters_.approximate_sync) return;
-  std::stable_sort(colours.begin(), colours.end(), isEarlier);
-  std::stable_sort(depths.begin(), depths.end(), isEarlier);
-  for (const auto& [i, j] :
-       associate(stampsOf(colours), stampsOf(depths), parameters_.sync_tolerance)) {
-    deliver({colours[i], depths[j], nullptr});
-  }
+  ++countOf(stream).without_partner;
 }
 
 void FrameInput::takeCameraInfo(const sensor_msgs::CameraInfoConstPtr& message) {
-  std::vector<ImagePair> early;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     ++camera_info_count_.messages;
     camera_info_count_.last_stamp = message->header.stamp;
     camera_info_count_.last_arrival = ros::WallTime::now();
     camera_info_ = message;
-    early.swap(early_);
   }
-  for (ImagePair& pair : early) deliver(pair);
+  while (early_.size() > 0) deliver(*early_.pop());
 }
 
 void FrameInput::deliver(ImagePair pair) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (!camera_info_) {
-      if (parameters_.drop_frames) early_.clear();
-      early_.push_back(pair);
+      keepEarly(std::move(pair));
       return;
     }
     pair.camera_info = camera_info_;
@@ -202,16 +121,27 @@ void FrameInput::deliver(ImagePair pair) {
   callback_(pair);
 }
 
+void FrameInput::keepEarly(ImagePair pair) {
+  early_.push(std::move(pair));
+  if (parameters_.drop_frames || early_.dropped() == 0) return;
+  ROS_WARN_THROTTLE(kSilence,
+                    "there is no calibration on %s yet, and more frames than queue_size (%d) wait "
+                    "for it: the oldest are dropped",
+                    camera_info_count_.topic.c_str(), parameters_.queue_size);
+}
+
 void FrameInput::watch() {
   bool idle = false;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    const ros::WallTime last =
-        std::max(waiting_colour_.count.last_arrival, waiting_depth_.count.last_arrival);
-    idle = !waiting_colour_.messages.empty() && !waiting_depth_.messages.empty() &&
-           (ros::WallTime::now() - last).toSec() > kIdle;
+    const ros::WallTime last = std::max(countOf(ImageStream::kColour).last_arrival,
+                                        countOf(ImageStream::kDepth).last_arrival);
+    idle = (ros::WallTime::now() - last).toSec() > kIdle;
   }
-  if (idle) deliverWaiting();
+  if (idle && pairer_.numWaiting(ImageStream::kColour) > 0 &&
+      pairer_.numWaiting(ImageStream::kDepth) > 0) {
+    pairer_.flush();
+  }
   const std::string warning = silence();
   if (!warning.empty()) ROS_WARN_STREAM(warning);
 }
@@ -221,9 +151,7 @@ void FrameInput::stop() {
   colour_.shutdown();
   depth_.shutdown();
   camera_info_subscriber_.shutdown();
-  deliverWaiting();
-  approximate_.reset();
-  exact_.reset();
+  pairer_.flush();
 }
 
 std::string FrameInput::silence() {
@@ -239,8 +167,8 @@ std::string FrameInput::explain(double seconds) const {
   std::string silent;
   std::string text;
   const std::pair<const InputCount*, std::uint32_t> inputs[] = {
-      {&waiting_colour_.count, colour_.publishers()},
-      {&waiting_depth_.count, depth_.publishers()},
+      {&countOf(ImageStream::kColour), colour_.publishers()},
+      {&countOf(ImageStream::kDepth), depth_.publishers()},
       {&camera_info_count_, camera_info_subscriber_.getNumPublishers()}};
   for (const auto& [count, publishers] : inputs) {
     const bool never = count->messages == 0;
@@ -256,8 +184,8 @@ std::string FrameInput::explain(double seconds) const {
   if (!silent.empty()) {
     return fmt::format("no frame for {:.0f} s, nothing comes on: {}", seconds, silent) + text;
   }
-  const double difference =
-      std::abs((waiting_colour_.count.last_stamp - waiting_depth_.count.last_stamp).toSec());
+  const double difference = std::abs(
+      (countOf(ImageStream::kColour).last_stamp - countOf(ImageStream::kDepth).last_stamp).toSec());
   return fmt::format(
              "no frame for {:.0f} s: images come, but their stamps are not {}; the last ones "
              "differ "
@@ -271,8 +199,7 @@ std::string FrameInput::explain(double seconds) const {
 
 std::vector<InputCount> FrameInput::counts() const {
   const std::lock_guard<std::mutex> lock(mutex_);
-  std::vector<InputCount> counts = {waiting_colour_.count, waiting_depth_.count,
-                                    camera_info_count_};
+  std::vector<InputCount> counts = {image_counts_[0], image_counts_[1], camera_info_count_};
   counts[0].publishers = colour_.publishers();
   counts[1].publishers = depth_.publishers();
   counts[2].publishers = camera_info_subscriber_.getNumPublishers();

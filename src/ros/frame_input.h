@@ -1,21 +1,18 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <message_filters/sync_policies/approximate_time.h>
-#include <message_filters/sync_policies/exact_time.h>
-#include <message_filters/synchronizer.h>
 #include <ros/node_handle.h>
 
-#include <deque>
+#include <array>
 #include <functional>
-#include <memory>
 #include <mutex>
 #include <string>
 #include <vector>
 
+#include "ros/frame_queue.h"
 #include "ros/image_port.h"
 #include "ros/node_parameters.h"
-#include "ros/stamp_gap.h"
+#include "session/stamp_pairer.h"
 
 namespace mivo {
 
@@ -24,8 +21,9 @@ struct InputCount {
   std::string topic;
   std::uint32_t publishers = 0;
   std::uint64_t messages = 0;
-  ros::Time last_stamp;        ///< of the header
-  ros::WallTime last_arrival;  ///< zero: nothing yet
+  std::uint64_t without_partner = 0;  ///< images of no pair
+  ros::Time last_stamp;               ///< of the header
+  ros::WallTime last_arrival;         ///< zero: nothing yet
 };
 
 /// Subscribes to colour, depth and calibration, and pairs them by their stamps. All calls of ROS
@@ -53,41 +51,34 @@ class FrameInput {
   const std::string& colourTopic() const { return colour_.topic(); }
 
  private:
-  using Approximate = message_filters::sync_policies::ApproximateTime<ImageMessage, ImageMessage>;
-  using Exact = message_filters::sync_policies::ExactTime<ImageMessage, ImageMessage>;
-
-  struct Waiting {
-    std::deque<ImageMessageConstPtr> messages;  // since the last pair
-    InputCount count;
-    StampGap gap;
-  };
-
-  void observe(const ImageMessageConstPtr& message, Waiting& waiting);
-  void connect();
-  void expect(int input, Waiting& waiting, const ros::Time& stamp);
-  void takePair(const ImageMessageConstPtr& colour, const ImageMessageConstPtr& depth);
+  void take(ImageStream stream, const ImageMessageConstPtr& message);
   void takeCameraInfo(const sensor_msgs::CameraInfoConstPtr& message);
-  void deliverWaiting();
   void deliver(ImagePair pair);
+  void keepEarly(ImagePair pair);
+  void countSingle(ImageStream stream);
   void watch();
   std::string explain(double seconds) const;
+  InputCount& countOf(ImageStream stream) {
+    return image_counts_[static_cast<std::size_t>(stream)];
+  }
+  const InputCount& countOf(ImageStream stream) const {
+    return image_counts_[static_cast<std::size_t>(stream)];
+  }
 
   NodeParameters parameters_;
   PairCallback callback_;
+  StampPairer<ImageMessageConstPtr> pairer_;  // the queue's thread's own
   ImagePort colour_;
   ImagePort depth_;
-  // Behind the ports, from which they disconnect when they are destroyed.
-  std::unique_ptr<message_filters::Synchronizer<Approximate>> approximate_;
-  std::unique_ptr<message_filters::Synchronizer<Exact>> exact_;
   ros::Subscriber camera_info_subscriber_;
   ros::WallTimer timer_;
 
+  FrameQueue<ImagePair> early_;  // pairs that came before the calibration
+
   mutable std::mutex mutex_;  // guards what follows
-  Waiting waiting_colour_;
-  Waiting waiting_depth_;
+  std::array<InputCount, 2> image_counts_;
   InputCount camera_info_count_;
   sensor_msgs::CameraInfoConstPtr camera_info_;
-  std::vector<ImagePair> early_;  // pairs that came before the calibration
   ros::WallTime last_pair_;
   double next_warning_;  // s of silence
 };

@@ -9,27 +9,31 @@
 
 namespace mivo {
 
+/// Most frames that wait where none may be dropped: 1.5 GB of 640 x 480 pixels.
+constexpr std::size_t kMaxBacklog = 1000;
+
 /// Frames between the thread that receives them and the one that tracks them.
 template <typename Item>
 class FrameQueue {
  public:
   enum class Policy {
     kNewest,  ///< a newer frame takes the place of one that still waits
-    kAll      ///< all frames wait
+    kAll      ///< all frames wait, up to the capacity: then the oldest go
   };
 
-  explicit FrameQueue(Policy policy) : policy_(policy) {}
+  explicit FrameQueue(Policy policy, std::size_t capacity = kMaxBacklog)
+      : policy_(policy), capacity_(policy == Policy::kNewest ? 1 : capacity) {}
 
   /// Does nothing once the queue is closed.
   void push(Item item) {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       if (closed_) return;
-      if (policy_ == Policy::kNewest) {
-        dropped_ += items_.size();
-        items_.clear();
-      }
       items_.push_back(std::move(item));
+      if (items_.size() > capacity_) {
+        items_.pop_front();
+        ++dropped_;
+      }
     }
     changed_.notify_one();
   }
@@ -67,7 +71,7 @@ class FrameQueue {
     return items_.size();
   }
 
-  /// Frames that newer ones have replaced.
+  /// Frames that had to go for newer ones.
   std::uint64_t dropped() const {
     const std::lock_guard<std::mutex> lock(mutex_);
     return dropped_;
@@ -75,6 +79,7 @@ class FrameQueue {
 
  private:
   const Policy policy_;
+  const std::size_t capacity_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::deque<Item> items_;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <ros/message_traits.h>
 #include <ros/time.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/CompressedImage.h>
@@ -53,15 +52,3 @@ struct ImagePair {
 };
 
 }  // namespace mivo
-
-namespace ros {
-namespace message_traits {
-
-// What message_filters needs to know to pair the images by their stamps.
-template <>
-struct HasHeader<mivo::ImageMessage> : TrueType {};
-template <>
-struct HasHeader<const mivo::ImageMessage> : TrueType {};
-
-}  // namespace message_traits
-}  // namespace ros

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <image_transport/subscriber.h>
-#include <message_filters/simple_filter.h>
 #include <ros/node_handle.h>
 
 #include <functional>
@@ -14,11 +13,11 @@ namespace mivo {
 
 /// Subscription to one image topic through any transport. The transports compressed and
 /// compressedDepth are decoded by mivo itself; others need their image_transport plugin.
-class ImagePort : public message_filters::SimpleFilter<ImageMessage> {
+class ImagePort {
  public:
-  /// @param observer  sees each message before the filters behind this one do
+  /// @param callback  gets each message
   ImagePort(const ros::NodeHandle& node, const std::string& topic, const std::string& transport,
-            int queue_size, std::function<void(const ImageMessageConstPtr&)> observer);
+            int queue_size, std::function<void(const ImageMessageConstPtr&)> callback);
 
   /// Throws Error, naming the transport, when there is no plugin for it.
   void subscribe(const ros::NodeHandle& private_node);
@@ -28,7 +27,6 @@ class ImagePort : public message_filters::SimpleFilter<ImageMessage> {
   std::uint32_t publishers() const;
 
  private:
-  void take(const ImageMessageConstPtr& message);
   bool isBuiltIn() const;
 
   ros::NodeHandle node_;
@@ -36,7 +34,7 @@ class ImagePort : public message_filters::SimpleFilter<ImageMessage> {
   std::string transport_;
   std::string topic_;
   std::uint32_t queue_size_;
-  std::function<void(const ImageMessageConstPtr&)> observer_;
+  std::function<void(const ImageMessageConstPtr&)> callback_;
   image_transport::Subscriber image_subscriber_;
   ros::Subscriber compressed_subscriber_;
 };

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "ros/topics.h"
+#include "session/stamp_pairer.h"
 
 namespace mivo {
 
@@ -26,7 +27,7 @@ struct NodeParameters {
   std::string depth_transport = "raw";  ///< raw, compressed, compressedDepth, or any other
   int queue_size = 10;                  ///< messages that wait for their partner, per input
   bool approximate_sync = true;         ///< otherwise the stamps of colour and depth must be equal
-  double sync_tolerance = 0.02;         ///< s, largest difference of the stamps of a pair
+  double sync_tolerance = kMaxPairDifference;  ///< s, largest difference of the stamps of a pair
   bool drop_frames = true;  ///< the newest frame wins; otherwise all wait (for bags), and
                             ///< queue_size is 100 at least
 

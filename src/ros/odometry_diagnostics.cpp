@@ -103,7 +103,9 @@ void OdometryDiagnostics::input(Wrapper& status) {
   for (std::size_t i = 0; i < counts_.size() && i < counts_before_.size(); ++i) {
     const auto messages = static_cast<double>(counts_[i].messages - counts_before_[i].messages);
     status.addf(counts_[i].topic + " (Hz)", "%.1f", seconds_ > 0.0 ? messages / seconds_ : 0.0);
-    if (i < 2) slowest = slowest < 0.0 ? messages : std::min(slowest, messages);
+    if (i >= 2) continue;  // the calibration
+    status.add(counts_[i].topic + " without partner", counts_[i].without_partner);
+    slowest = slowest < 0.0 ? messages : std::min(slowest, messages);
   }
   const auto pairs = static_cast<double>(
       std::count_if(samples_.begin(), samples_.end(), [this](const Sample& sample) {

@@ -9,7 +9,7 @@
 #include <string>
 
 #include "ros/frame_input.h"
-#include "ros/message_frame.h"
+#include "session/depth_sample.h"
 
 namespace mivo {
 

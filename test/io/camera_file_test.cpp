@@ -29,6 +29,15 @@ TEST(CameraFileTest, ReadsTheFieldsInTheirOrder) {
   EXPECT_EQ(camera.depth_units_per_metre, 5000.0);
 }
 
+TEST(CameraFileTest, AByteOrderMarkIsNoText) {
+  const TemporaryFolder folder;
+  for (const char* text : {"\xEF\xBB\xBF# comment\n640 480 1 2 3 4 5000\n",
+                           "\xEF\xBB\xBF"
+                           "640 480 1 2 3 4 5000\n"}) {
+    EXPECT_EQ(readCamera(folder.write("camera.txt", text)).camera.width, 640);
+  }
+}
+
 TEST(CameraFileTest, RefusesBadNumbersWithFileAndLine) {
   const TemporaryFolder folder;
   for (const char* line :

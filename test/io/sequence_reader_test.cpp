@@ -43,13 +43,13 @@ class SequenceReaderTest : public ::testing::Test {
     SequenceReader reader(folder_.path(), range);
     std::vector<std::string> events;
     Frame frame;
-    std::string fault;
+    FrameFault fault;
     for (;;) {
       const auto status = reader.next(frame, fault);
       if (status == FrameSource::Status::kEnd) return events;
       events.push_back(status == FrameSource::Status::kFrame
                            ? "F" + std::to_string(static_cast<int>(frame.stamp))
-                           : "S" + fault);
+                           : "S" + fault.text);
     }
   }
 
@@ -72,7 +72,7 @@ TEST_F(SequenceReaderTest, DeliversImagesAndDepthAsStored) {
   EXPECT_EQ(reader.size(), 3U);
   EXPECT_TRUE(reader.notice().empty());
   Frame frame;
-  std::string fault;
+  FrameFault fault;
   for (int i = 0; i < 3; ++i) {
     ASSERT_EQ(reader.next(frame, fault), FrameSource::Status::kFrame);
     EXPECT_EQ(frame.stamp, i);
@@ -91,7 +91,7 @@ TEST_F(SequenceReaderTest, ColourIsTakenAsBlueGreenRed) {
   writePng(folder_ / "rgb/0.png", colour, Overwrite::kYes);
   SequenceReader reader(folder_.path());
   Frame frame;
-  std::string fault;
+  FrameFault fault;
   ASSERT_EQ(reader.next(frame, fault), FrameSource::Status::kFrame);
   // Weights of ITU-R BT.601: 0.299 red, 0.587 green, 0.114 blue.
   EXPECT_NEAR(frame.image.at<unsigned char>(0, 0), 0.114 * 250 + 0.587 * 100 + 0.299 * 5, 1.0);
@@ -111,14 +111,45 @@ TEST_F(SequenceReaderTest, ListsOutOfOrderAreSorted) {
 
 TEST_F(SequenceReaderTest, AssociationsGoBeforeTheLists) {
   folder_.write("associations.txt", "2 rgb/2.png 9 depth/0.png\n0 rgb/0.png 9 depth/1.png\n");
-  EXPECT_EQ(readAll(), (Events{"F2", "F0"}));
+  EXPECT_EQ(readAll(), (Events{"F0", "F2"}));
   SequenceReader reader(folder_.path());
   Frame frame;
-  std::string fault;
+  FrameFault fault;
   reader.next(frame, fault);
-  EXPECT_EQ(frame.depth.at<unsigned short>(0, 0), 0);
+  EXPECT_EQ(frame.depth.at<unsigned short>(0, 0), 100);
   std::filesystem::remove(folder_ / "rgb.txt");  // not needed then
   EXPECT_EQ(readAll().size(), 2U);
+}
+
+TEST_F(SequenceReaderTest, LinesOutOfOrderAndDoubledAreToldOnce) {
+  const std::string line[] = {"0 rgb/0.png 0 depth/0.png\n", "1 rgb/1.png 1 depth/1.png\n",
+                              "2 rgb/2.png 2 depth/2.png\n"};
+  const std::string file = folder_.write("associations.txt", line[2] + line[1] + line[0]);
+  EXPECT_EQ(readAll(), (Events{"F0", "F1", "F2"}));
+  EXPECT_EQ(SequenceReader(folder_.path()).notice(),
+            "the lines of " + file + " were not in the order of their stamps and are sorted");
+  folder_.write("associations.txt", line[0] + line[0] + line[1] + line[1] + line[2]);
+  EXPECT_EQ(readAll(), (Events{"F0", "F1", "F2"}));
+  EXPECT_EQ(SequenceReader(folder_.path()).notice(),
+            "2 of the lines of " + file + " left out: others have the same stamps");
+
+  std::filesystem::remove(file);
+  folder_.write("rgb.txt", "2 rgb/2.png\n0 rgb/0.png\n0 rgb/1.png\n");
+  folder_.write("depth.txt", "0 depth/0.png\n0 depth/0.png\n2 depth/2.png\n");
+  EXPECT_EQ(readAll(), (Events{"F0", "F2"}));
+  EXPECT_EQ(SequenceReader(folder_.path()).notice(),
+            "the lines of " + (folder_ / "rgb.txt") +
+                " were not in the order of their stamps and are sorted; 1 of them left out: others "
+                "have the same stamps; 1 of the lines of " +
+                (folder_ / "depth.txt") + " left out: others have the same stamps");
+}
+
+TEST_F(SequenceReaderTest, ListsWithoutTimesAreErrors) {
+  folder_.write("rgb.txt", "0 rgb/0.png\n0 rgb/1.png\n");
+  EXPECT_EQ(openError(), (folder_ / "rgb.txt") +
+                             ": all 2 stamps are 0.000000: without times nothing can be tracked");
+  folder_.write("associations.txt", "7 rgb/0.png 0 depth/0.png\n7 rgb/1.png 1 depth/1.png\n");
+  EXPECT_EQ(openError().find((folder_ / "associations.txt") + ": all 2 stamps are 7.000000"), 0U);
 }
 
 TEST_F(SequenceReaderTest, RangeIsAPart) {
@@ -132,6 +163,12 @@ TEST_F(SequenceReaderTest, RangeIsAPart) {
 TEST_F(SequenceReaderTest, BrokenFrameIsSkippedWithItsReason) {
   truncate("rgb/1.png");
   EXPECT_EQ(readAll(), (Events{"F0", "S" + (folder_ / "rgb/1.png") + " is truncated", "F2"}));
+  SequenceReader reader(folder_.path());
+  Frame frame;
+  FrameFault fault;
+  reader.next(frame, fault);
+  ASSERT_EQ(reader.next(frame, fault), FrameSource::Status::kSkipped);
+  EXPECT_EQ(fault.reason, "the colour image is truncated");  // counted with others
 }
 
 TEST_F(SequenceReaderTest, BrokenFirstFrameIsSkippedToo) {

@@ -34,7 +34,7 @@ TEST(SequenceWriterTest, ReaderGetsWhatWasWritten) {
   EXPECT_EQ(reader.depthUnitsPerMetre(), 5000.0);
   ASSERT_EQ(reader.size(), 2U);
   Frame frame;
-  std::string fault;
+  FrameFault fault;
   ASSERT_EQ(reader.next(frame, fault), FrameSource::Status::kFrame);
   EXPECT_NEAR(frame.stamp, 1305031229.528748, 5e-7);
   EXPECT_EQ(frame.image.at<unsigned char>(0, 0),

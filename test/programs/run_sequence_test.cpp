@@ -114,8 +114,40 @@ TEST_F(RunSequenceTest, BrokenFramesAreSkippedAndTold) {
   EXPECT_EQ(valueOf(result.output, "skipped_frames"), 2);
   EXPECT_EQ(valueOf(result.output, "frames"), kFrames - 2);
   EXPECT_EQ(readTrajectory(output_).size(), std::size_t{kFrames - 2});
-  EXPECT_NE(result.errors.find(image(5) + " is truncated"), std::string::npos) << result.errors;
+  EXPECT_EQ(valueOf(result.output, "skipped (the colour image is truncated)"), 2);
+  // Told once per reason.
+  EXPECT_EQ(result.errors, "skipped: " + image(0) + " is truncated\n");
   EXPECT_LT(largestError(1), kTolerance);
+}
+
+TEST_F(RunSequenceTest, AssociationsInReverseOrderAndDoubledGiveTheSamePoses) {
+  ASSERT_EQ(track({}).exit_code, 0);
+  const std::string expected = contentOf(output_);
+  std::istringstream lines(contentOf(sequence_ + "/associations.txt"));
+  std::string reversed;
+  for (std::string line; std::getline(lines, line);) {
+    reversed = line + "\n" + line + "\n" + reversed;
+  }
+  folder_.write("sequence/associations.txt", reversed);
+  const ProcessResult result = track({"--force"});
+  EXPECT_EQ(result.exit_code, 0);
+  EXPECT_EQ(contentOf(output_), expected);
+  EXPECT_EQ(result.errorLines(), 1U) << result.errors;
+  EXPECT_NE(result.errors.find("12 of them left out"), std::string::npos) << result.errors;
+}
+
+TEST_F(RunSequenceTest, NothingTrackedIsAnErrorThatNamesTheDepth) {
+  folder_.write("sequence/camera.txt", "160 120 140 140 79.5 59.5 1000000\n");
+  const ProcessResult result = track({});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(valueOf(result.output, "initialising"), kFrames);
+  EXPECT_EQ(result.errorLines(), 1U) << result.errors;
+  EXPECT_NE(result.errors.find("nothing was tracked: too few points with depth and texture (12 of "
+                               "12 frames); median depth seen 0.0"),
+            std::string::npos)
+      << result.errors;
+  EXPECT_NE(result.errors.find("(camera.txt: 1000000 units per metre)?"), std::string::npos)
+      << result.errors;
 }
 
 TEST_F(RunSequenceTest, ExistingFilesAreKeptWithoutForce) {
@@ -220,7 +252,7 @@ TEST_F(RunSequenceTest, HelpAndVersion) {
   EXPECT_EQ(help.errors, "");
   for (const char* option :
        {"--output", "--method", "--config", "--set", "--start", "--count", "--threads",
-        "--statistics", "--force", "--reference", "--disturb", "--seed"}) {
+        "--statistics", "--write-lost", "--force", "--reference", "--disturb", "--seed"}) {
     EXPECT_NE(help.output.find(option), std::string::npos) << option;
   }
   const ProcessResult version = run("run_sequence", {"--version"});

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <functional>
+
 #include "mivo/core/error.h"
 #include "mivo/io/trajectory_io.h"
 #include "programs/plane_sequence.h"
@@ -12,17 +15,30 @@
 namespace mivo {
 namespace {
 
-/// Delivers some frames and then fails, as a recording on a failing disk does.
-class FailingSource : public FrameSource {
+/// Frames in front of the plane, each changed by a function before it is delivered.
+class PlaneSource : public FrameSource {
  public:
-  explicit FailingSource(int frames) : frames_(frames), camera_(planeCamera().camera) {}
+  using Change = std::function<void(int i, Frame& frame)>;
+
+  PlaneSource(int frames, Change change)
+      : frames_(frames), camera_(planeCamera().camera), change_(std::move(change)) {}
 
   const Camera& camera() const override { return camera_; }
-  std::size_t size() const override { return 100; }
-  Status next(Frame& frame, std::string&) override {
-    if (next_ == frames_) throw Error("the source has failed");
+  std::size_t size() const override { return static_cast<std::size_t>(frames_); }
+  std::string depthUnit() const override { return "as the plane has it"; }
+  const std::string& notice() const override { return notice_; }
+
+  Status next(Frame& frame, FrameFault& fault) override {
+    if (next_ == frames_) return Status::kEnd;
+    frame = Frame();
     renderPlane(planePose(next_), frame.image, frame.depth);
-    frame.stamp = planeStamp(next_++);
+    frame.stamp = planeStamp(next_);
+    try {
+      change_(next_++, frame);
+    } catch (const UsageError&) {  // stands for a frame that cannot be read
+      fault = {"file " + std::to_string(next_) + " is broken", "file is broken"};
+      return Status::kSkipped;
+    }
     return Status::kFrame;
   }
 
@@ -30,43 +46,170 @@ class FailingSource : public FrameSource {
   int frames_;
   int next_ = 0;
   Camera camera_;
+  std::string notice_;
+  Change change_;
 };
 
-TEST(TrackingRunTest, WhatHasBeenComputedIsKeptWhenTheSourceFails) {
-  const TemporaryFolder folder;
-  TrackingOptions options;
-  options.output = folder / "trajectory.txt";
-  options.statistics = folder / "statistics.csv";
-  FailingSource source(3);
-  EXPECT_EQ(errorText([&] { trackFrames(source, options); }), "the source has failed");
-  EXPECT_EQ(readTrajectory(options.output).size(), 3U);
-  const std::string statistics = contentOf(options.statistics);
-  EXPECT_EQ(std::count(statistics.begin(), statistics.end(), '\n'), 4);  // with the header
-}
-
-/// Nothing but broken frames.
-class BrokenSource : public FailingSource {
- public:
-  BrokenSource() : FailingSource(0) {}
-  Status next(Frame&, std::string& fault) override {
-    fault = "frame is broken";
-    return ++calls_ <= 30 ? Status::kSkipped : Status::kEnd;
+class TrackingRunTest : public ::testing::Test {
+ protected:
+  TrackingRunTest() {
+    options_.output = folder_ / "trajectory.txt";
+    options_.statistics = folder_ / "statistics.csv";
   }
 
- private:
-  int calls_ = 0;
+  TrackingSummary track(int frames, const PlaneSource::Change& change) {
+    PlaneSource source(frames, change);
+    testing::internal::CaptureStderr();
+    TrackingSummary summary = trackFrames(source, options_);
+    errors_ = testing::internal::GetCapturedStderr();
+    return summary;
+  }
+
+  /// Numbers of the frames that have a line in the trajectory.
+  std::vector<int> written() const {
+    std::vector<int> frames;
+    for (const StampedPose& pose : readTrajectory(options_.output)) {
+      frames.push_back(static_cast<int>(std::lround(30.0 * (pose.stamp - planeStamp(0)))));
+    }
+    return frames;
+  }
+
+  long numRows() const {
+    const std::string text = contentOf(options_.statistics);
+    return std::count(text.begin(), text.end(), '\n') - 1;  // without the header
+  }
+
+  /// What is said of a run in which nothing was tracked.
+  std::string refusal(const TrackingSummary& summary) const {
+    return errorText([&] { requireTracked(summary, options_.parameters.depth, "5000 per metre"); });
+  }
+
+  TemporaryFolder folder_;
+  TrackingOptions options_;
+  std::string errors_;
 };
 
-TEST(TrackingRunTest, SourceWithoutFramesIsAnErrorAndDoesNotFloodTheScreen) {
-  const TemporaryFolder folder;
-  TrackingOptions options;
-  options.output = folder / "trajectory.txt";
-  BrokenSource source;
-  testing::internal::CaptureStderr();
-  EXPECT_EQ(errorText([&] { trackFrames(source, options); }),
-            "there was no frame to track: frame is broken");
-  const std::string errors = testing::internal::GetCapturedStderr();
-  EXPECT_EQ(std::count(errors.begin(), errors.end(), '\n'), 10);
+void keep(int, Frame&) {}
+
+void cover(Frame& frame) {
+  frame.image = cv::Scalar(0);
+  frame.depth = cv::Scalar(0.0);
+}
+
+TEST_F(TrackingRunTest, WhatHasBeenComputedIsKeptWhenTheSourceFails) {
+  const auto fail = [](int i, Frame&) {
+    if (i == 3) throw Error("the source has failed");
+  };
+  PlaneSource source(10, fail);
+  EXPECT_EQ(errorText([&] { trackFrames(source, options_); }), "the source has failed");
+  EXPECT_EQ(written(), (std::vector<int>{0, 1, 2}));
+  EXPECT_EQ(numRows(), 3);
+}
+
+TEST_F(TrackingRunTest, RefusedFramesAreNoPosesAndAreToldOncePerReason) {
+  const TrackingSummary summary = track(12, [](int i, Frame& frame) {
+    if (i >= 4 && i < 7) frame.stamp = planeStamp(3);
+    if (i == 7 || i == 9) frame.image = frame.image.colRange(0, 100);
+    if (i == 10) throw UsageError("broken");
+  });
+  EXPECT_EQ(written(), (std::vector<int>{0, 1, 2, 3, 8, 11}));
+  EXPECT_EQ(numRows(), 6);
+  EXPECT_EQ(summary.frames, 6U);
+  EXPECT_EQ(summary.tracked, 6U);
+  EXPECT_EQ(summary.motions, 5U);
+  EXPECT_EQ(summary.skipped_frames, 6U);
+  const CountByReason expected = {{"file is broken", 1},
+                                  {"stamp is not newer than that of the frame before", 3},
+                                  {"the image has 100 x 120 pixels, but the camera 160 x 120", 2}};
+  EXPECT_EQ(summary.skipped, expected);
+  EXPECT_EQ(errors_,
+            "skipped: frame of stamp 100.100000: stamp is not newer than that of the frame before\n"
+            "skipped: frame of stamp 100.233333: the image has 100 x 120 pixels, but the camera "
+            "160 x 120\n"
+            "skipped: file 11 is broken\n");
+  std::ostringstream text;
+  print(text, summary);
+  EXPECT_NE(text.str().find("\nskipped_frames: 6\nskipped (file is broken): 1\n"),
+            std::string::npos)
+      << text.str();
+  EXPECT_EQ(refusal(summary), "nothing thrown");
+}
+
+TEST_F(TrackingRunTest, LostFramesAreWrittenOnlyWhenAskedFor) {
+  const auto change = [](int i, Frame& frame) {
+    if (i == 4 || i == 5) cover(frame);
+  };
+  EXPECT_EQ(track(8, change).lost, 2U);
+  EXPECT_EQ(written(), (std::vector<int>{0, 1, 2, 3, 6, 7}));
+  EXPECT_EQ(numRows(), 8);
+  options_.write_lost = options_.force = true;
+  EXPECT_EQ(track(8, change).lost, 2U);
+  EXPECT_EQ(written(), (std::vector<int>{0, 1, 2, 3, 4, 5, 6, 7}));
+}
+
+TEST_F(TrackingRunTest, FramesBeforeTheFirstKeyframeAreNeverWritten) {
+  options_.write_lost = true;
+  const TrackingSummary summary = track(6, [](int i, Frame& frame) {
+    if (i < 2) frame.depth = cv::Scalar(0.0);
+  });
+  EXPECT_EQ(summary.initialising, 2U);
+  EXPECT_EQ(written(), (std::vector<int>{2, 3, 4, 5}));
+  EXPECT_EQ(numRows(), 6);
+}
+
+TEST_F(TrackingRunTest, ASingleFrameIsTrackedWhenItBecomesTheKeyframe) {
+  EXPECT_EQ(refusal(track(1, keep)), "nothing thrown");
+  EXPECT_EQ(written(), (std::vector<int>{0}));
+}
+
+TEST_F(TrackingRunTest, NothingTrackedBecauseOfTheStampsIsSaid) {
+  const TrackingSummary summary = track(8, [](int, Frame& frame) { frame.stamp = planeStamp(0); });
+  const std::string text = refusal(summary);
+  EXPECT_EQ(
+      text.find("nothing was tracked: stamp is not newer than that of the frame before (7 of 8 "
+                "frames); median depth seen 1."),
+      0U)
+      << text;
+  EXPECT_EQ(text.find("unit"), std::string::npos) << text;
+  EXPECT_EQ(written(), (std::vector<int>{0}));  // what there is stays
+}
+
+TEST_F(TrackingRunTest, NothingTrackedBecauseOfTheDepthUnitIsSaid) {
+  const TrackingSummary summary =
+      track(8, [](int, Frame& frame) { frame.depth = frame.depth * 0.001; });
+  const std::string text = refusal(summary);
+  EXPECT_EQ(text.find("nothing was tracked: too few points with depth and texture (8 of 8 frames); "
+                      "median depth seen 0.001"),
+            0U)
+      << text;
+  EXPECT_NE(
+      text.find(" m, 100 % of the pixels, where 0.3 to 10 m are taken: is the depth unit wrong "
+                "(5000 per metre)?"),
+      std::string::npos)
+      << text;
+}
+
+TEST_F(TrackingRunTest, NothingTrackedForWantOfDepthIsSaid) {
+  const TrackingSummary summary =
+      track(8, [](int, Frame& frame) { frame.depth = cv::Scalar(0.0); });
+  EXPECT_EQ(refusal(summary),
+            "nothing was tracked: too few points with depth and texture (8 of 8 frames); the depth "
+            "images have no reading at all");
+}
+
+TEST_F(TrackingRunTest, NothingReadableIsSaidAndDoesNotFloodTheScreen) {
+  const TrackingSummary summary = track(30, [](int, Frame&) { throw UsageError("broken"); });
+  EXPECT_EQ(errors_, "skipped: file 1 is broken\n");
+  EXPECT_EQ(refusal(summary), "nothing was tracked: file is broken (30 of 30 frames)");
+}
+
+TEST_F(TrackingRunTest, DepthThatCannotBeRightIsNamedEvenIfItWasTracked) {
+  options_.parameters.depth.min_depth = 1.0;
+  TrackingSummary summary = track(3, keep);
+  EXPECT_EQ(findDepthFault(summary, options_.parameters.depth, "unit"), "");
+  options_.parameters.depth.min_depth = 2.0;
+  EXPECT_NE(findDepthFault(summary, options_.parameters.depth, "unit").find("(unit)?"),
+            std::string::npos);
 }
 
 }  // namespace

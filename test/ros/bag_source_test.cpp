@@ -80,9 +80,9 @@ TEST_F(BagSourceTest, FloatDepthHasTheBitsOfTheTracker) {
   EXPECT_EQ(makeCamera().camera, source.camera());
   ASSERT_EQ(3U, source.size());
   Frame frame;
-  std::string fault;
+  FrameFault fault;
   for (int i = 0; i < 3; ++i) {
-    ASSERT_EQ(FrameSource::Status::kFrame, source.next(frame, fault)) << fault;
+    ASSERT_EQ(FrameSource::Status::kFrame, source.next(frame, fault)) << fault.text;
     EXPECT_EQ(stamp(i), frame.stamp);
     EXPECT_EQ(0.0, cv::norm(toGrey(colour(i), ChannelOrder::kBgr), frame.image, cv::NORM_INF));
     ASSERT_EQ(CV_32FC1, frame.depth.type());
@@ -100,8 +100,8 @@ TEST_F(BagSourceTest, IntegerAndCompressedDepthAreMillimetres) {
     writeBag(bagLayout("realsense"), images, 2, 1000.0);
     BagSource source(path_, {});
     Frame frame;
-    std::string fault;
-    ASSERT_EQ(FrameSource::Status::kFrame, source.next(frame, fault)) << fault;
+    FrameFault fault;
+    ASSERT_EQ(FrameSource::Status::kFrame, source.next(frame, fault)) << fault.text;
     EXPECT_EQ(0.0, cv::norm(toGrey(colour(0), ChannelOrder::kBgr), frame.image, cv::NORM_INF));
     EXPECT_EQ(0.0, cv::norm(depth(0), frame.depth, cv::NORM_INF));
     EXPECT_EQ(0.001, frame.depth_unit);
@@ -113,8 +113,8 @@ TEST_F(BagSourceTest, OtherUnitsAreRoundedToMillimetres) {
   writeBag(bagLayout("openni2"), BagImages::kRaw, 1, 5000.0);
   BagSource source(path_, {});
   Frame frame;
-  std::string fault;
-  ASSERT_EQ(FrameSource::Status::kFrame, source.next(frame, fault)) << fault;
+  FrameFault fault;
+  ASSERT_EQ(FrameSource::Status::kFrame, source.next(frame, fault)) << fault.text;
   EXPECT_EQ(cvRound(depth(0).at<std::uint16_t>(5, 7) / 5.0), frame.depth.at<std::uint16_t>(5, 7));
 }
 
@@ -123,7 +123,7 @@ TEST_F(BagSourceTest, RangeTakesAPart) {
   BagSource source(path_, {}, {2, 2});
   ASSERT_EQ(2U, source.size());
   Frame frame;
-  std::string fault;
+  FrameFault fault;
   ASSERT_EQ(FrameSource::Status::kFrame, source.next(frame, fault));
   EXPECT_EQ(stamp(2), frame.stamp);
   EXPECT_ERROR(BagSource(path_, {}, FrameRange{5, 1}), "no frame left");
@@ -162,11 +162,42 @@ TEST_F(BagSourceTest, BrokenMessagesAreSkippedWithTheReason) {
   }
   BagSource source(path_, {});
   Frame frame;
-  std::string fault;
+  FrameFault fault;
   ASSERT_EQ(FrameSource::Status::kFrame, source.next(frame, fault));
   ASSERT_EQ(FrameSource::Status::kSkipped, source.next(frame, fault));
-  EXPECT_NE(std::string::npos, fault.find("holds 10 bytes")) << fault;
+  EXPECT_NE(std::string::npos, fault.reason.find("holds 10 bytes")) << fault.text;
+  EXPECT_EQ(fault.text,
+            path_ + ", frame of stamp " + std::to_string(stamp(1)) + ": " + fault.reason);
   EXPECT_EQ(FrameSource::Status::kEnd, source.next(frame, fault));
+}
+
+TEST_F(BagSourceTest, DoubledStampsAreLeftOutAndTold) {
+  {
+    BagWriter writer(path_, bagLayout("tum"), makeCamera(), BagImages::kRaw, Overwrite::kNo);
+    for (const int i : {0, 1, 1, 2}) {
+      writer.writeColour(stamp(i), colour(i));
+      writer.writeDepth(stamp(i) + 0.001 * i, depth(i));
+    }
+  }
+  const BagSource source(path_, {});
+  EXPECT_EQ(3U, source.size());
+  EXPECT_EQ(path_ +
+                ": 1 of the images on /camera/rgb/image_color left out: others have the same "
+                "stamps; 1 of the images on /camera/depth/image left out: others have the same "
+                "stamps",
+            source.notice());
+}
+
+TEST_F(BagSourceTest, ImagesWithoutTimesAreRefused) {
+  {
+    BagWriter writer(path_, bagLayout("tum"), makeCamera(), BagImages::kRaw, Overwrite::kNo);
+    for (int i = 0; i < 3; ++i) {
+      writer.writeColour(0.0, colour(i));
+      writer.writeDepth(0.0, depth(i));
+    }
+  }
+  EXPECT_ERROR(BagSource(path_, {}),
+               "the images on /camera/rgb/image_color: all 3 stamps are 0.000000");
 }
 
 TEST_F(BagSourceTest, FilesThatAreNoBagsAreRefused) {

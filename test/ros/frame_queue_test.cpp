@@ -20,6 +20,16 @@ TEST(FrameQueueTest, AllFramesWaitInTheirOrder) {
   EXPECT_EQ(0U, queue.dropped());
 }
 
+TEST(FrameQueueTest, NoMoreThanTheCapacityWait) {
+  Queue queue(Queue::Policy::kAll, 3);
+  for (int i = 0; i < 5; ++i) queue.push(i);
+  EXPECT_EQ(3U, queue.size());
+  EXPECT_EQ(2U, queue.dropped());
+  queue.close();
+  for (int i = 2; i < 5; ++i) EXPECT_EQ(i, *queue.pop());
+  EXPECT_FALSE(queue.pop());
+}
+
 TEST(FrameQueueTest, TheNewestFrameWins) {
   Queue queue(Queue::Policy::kNewest);
   for (int i = 0; i < 5; ++i) queue.push(i);

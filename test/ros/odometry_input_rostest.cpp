@@ -223,9 +223,10 @@ TEST_F(NodeTest, CompressedImagesAreDecodedWithoutPlugins) {
   };
   // The first frames may come before this test's subscribers are connected.
   int i = 0;
-  for (; i < 60 && !holds([&] { return odometries_.size() > 5U; }); ++i) {
+  const auto both_come = [&] { return odometries_.size() > 5U && statuses_.size() > 5U; };
+  for (; i < 60 && !holds(both_come); ++i) {
     publish(i);
-    waitFor([&] { return hasOdometry(i); }, std::chrono::milliseconds(200));
+    waitFor([&] { return isDone(i); }, std::chrono::milliseconds(200));
   }
   ASSERT_TRUE(waitFor([&] { return isDone(i - 1); }));
   // odom began at the first frame.

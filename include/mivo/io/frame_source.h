@@ -9,6 +9,12 @@
 
 namespace mivo {
 
+/// Why a frame was skipped.
+struct FrameFault {
+  std::string text;    ///< what and where, one line
+  std::string reason;  ///< what alone, the same for all frames with this fault
+};
+
 /// Where frames come from: a folder, a bag. Programs know this interface only.
 class FrameSource {
  public:
@@ -19,11 +25,18 @@ class FrameSource {
   /// Number of frames, skipped ones included, for progress bars.
   virtual std::size_t size() const = 0;
 
+  /// Where the unit of depth comes from, in a few words.
+  virtual std::string depthUnit() const = 0;
+
+  /// One line the user should know, or an empty text: what was assumed about the input, or put
+  /// right.
+  virtual const std::string& notice() const = 0;
+
   enum class Status { kFrame, kSkipped, kEnd };
 
   /// Reads the next frame. kSkipped: this frame is broken, `fault` says what and where; reading
   /// goes on with the next call. Throws Error only when nothing further can be read.
-  virtual Status next(Frame& frame, std::string& fault) = 0;
+  virtual Status next(Frame& frame, FrameFault& fault) = 0;
 };
 
 }  // namespace mivo

@@ -16,16 +16,18 @@ namespace mivo {
 ///   rgb.txt, depth.txt   lines `stamp path`, paths relative to the folder, PNG images; depth in 16
 ///                        bits, registered to the colour camera, 0 where there is no reading
 ///   associations.txt     optional: lines `stamp_rgb path stamp_depth path`. Without it each colour
-///                        image gets the depth image nearest in time, less than 20 ms away
+///                        image gets the depth image nearest in time, 20 ms away at most
 ///   camera.txt           see readCamera; may be missing when tumCamera knows the folder's name
 ///
-/// The stamp of a frame is that of its colour image. Without associations the frames come sorted by
-/// stamp, with them in the order of the file.
+/// The stamp of a frame is that of its colour image. The frames come in the order of their stamps,
+/// whatever the order of the lines; of lines with the same stamp the first counts. Either is told
+/// by notice().
 class SequenceReader : public FrameSource {
  public:
   /// Opens the folder and looks at the first images. Throws Error when the folder or one of its
-  /// files is missing or malformed, the range has no frame, no frame can be read, or the images of
-  /// the first one that can be read do not fit the camera or each other.
+  /// files is missing or malformed, all stamps of a file are the same, the range has no frame, no
+  /// frame can be read, or the images of the first one that can be read do not fit the camera or
+  /// each other.
   explicit SequenceReader(const std::string& folder, const FrameRange& range = {});
 
   const Camera& camera() const override { return camera_.camera; }
@@ -33,12 +35,12 @@ class SequenceReader : public FrameSource {
 
   /// The depth is handed on as it is stored, with Frame::depth_unit. A frame is skipped when one of
   /// its images is missing, damaged, of the wrong type or of the wrong size.
-  Status next(Frame& frame, std::string& fault) override;
+  Status next(Frame& frame, FrameFault& fault) override;
 
   double depthUnitsPerMetre() const { return camera_.depth_units_per_metre; }
 
-  /// One line the user should know, or an empty text: what was assumed about this folder.
-  const std::string& notice() const { return notice_; }
+  std::string depthUnit() const override;
+  const std::string& notice() const override { return notice_; }
 
  private:
   struct Entry {
@@ -55,6 +57,7 @@ class SequenceReader : public FrameSource {
   std::string sizeFault(const Frame& frame, const Entry& entry) const;
 
   SequenceCamera camera_;
+  std::string camera_file_;  // where the camera comes from
   std::string notice_;
   std::vector<Entry> entries_;
   std::size_t next_ = 0;

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <cstddef>
+#include <iosfwd>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "mivo/core/frame.h"
+#include "mivo/core/parameters.h"
+#include "mivo/core/tracking_result.h"
+
+namespace mivo {
+
+/// How many frames something was said of.
+using CountByReason = std::map<std::string, std::size_t>;
+
+/// Totals over a run.
+struct TrackingSummary {
+  std::size_t frames = 0;  ///< looked at by the tracker; skipped ones are not among them
+  std::size_t initialising = 0;
+  std::size_t tracked = 0;
+  std::size_t degraded = 0;
+  std::size_t lost = 0;
+  std::size_t skipped_frames = 0;  ///< that could not be read, or were refused
+  CountByReason skipped;           ///< the same by reason
+  CountByReason not_measured;      ///< of `frames`: initialising and lost ones by reason
+  std::size_t motions = 0;         ///< frames measured against a keyframe
+  int keyframes = 0;
+  int segments = 0;
+  double rolling_shutter_readout = 0.0;  ///< s, at the end; 0: global shutter
+  double depth_time_offset = 0.0;        ///< s, at the end: given or estimated
+  std::vector<double> cpu_ms;  ///< of each frame, all threads, from decoded images to the pose
+  std::vector<double> depth_medians;  ///< m, of the frames that have depth
+  double depth_coverage = 0.0;        ///< part of the pixels with depth, summed over the frames
+
+  /// Counts a frame that was looked at.
+  void add(const Frame& frame, const TrackingResult& result, double cpu_ms);
+
+  /// Counts a frame that was not. Whether it is the first with this reason.
+  bool addSkipped(const std::string& reason);
+};
+
+/// Lines `name: value`.
+void print(std::ostream& stream, const TrackingSummary& summary);
+
+/// What is wrong with the depth as a whole, as one line, or an empty text: it is not there, or its
+/// median is out of the range that the tracker takes.
+/// @param depth_unit  where the unit of depth comes from, FrameSource::depthUnit()
+std::string findDepthFault(const TrackingSummary& summary, const DepthParameters& parameters,
+                           const std::string& depth_unit);
+
+/// Throws Error when no motion was measured although there was more than one frame, or when not
+/// even a keyframe could be made: says why and what depth there was.
+void requireTracked(const TrackingSummary& summary, const DepthParameters& parameters,
+                    const std::string& depth_unit);
+
+}  // namespace mivo
