@@ -2,9 +2,9 @@
 #pragma once
 
 #include "ros/image_message.h"
-#include "ros/message_frame.h"
 #include "ros/node_parameters.h"
 #include "ros/transform_source.h"
+#include "session/depth_sample.h"
 
 namespace mivo {
 

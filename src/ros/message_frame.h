@@ -16,11 +16,4 @@ struct MessageFrame {
 /// Throws Error with the reason when a message cannot be used or they do not fit together.
 MessageFrame toFrame(const ImagePair& pair, bool rectified);
 
-/// A look at the depth, at every eighth pixel of every eighth row.
-struct DepthSample {
-  double coverage = 0.0;  ///< part of the pixels with a reading, 0 to 1
-  double median = 0.0;    ///< m, of the readings; 0: none
-};
-DepthSample sampleDepth(const Frame& frame);
-
 }  // namespace mivo
