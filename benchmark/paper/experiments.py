@@ -89,7 +89,8 @@ class Experiments:
     def track(self, kind, key, method, options=()):
         path = lambda ending: self.run_path(kind, key, method.key, ending)
         command = [self.program("run_sequence"), self.sequence(key), "--output", path("txt"),
-                   "--force"] + list(options) + method.words() + [">", path("summary")]
+                   "--force", "--write-lost"]
+        command += list(options) + method.words() + [">", path("summary")]
         self.add("track/%s/%s/%s" % (kind, key, method.key),
                  [command] + self.judge(kind, key, path), **self.source(key))
 

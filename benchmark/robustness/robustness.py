@@ -99,7 +99,7 @@ class Bench:
         command = [self.programs.path(METHODS[method][0]), folder] + words + [
             "--output", base + ".txt", "--force"]
         if METHODS[method][0] == "run_sequence":
-            command += ["--statistics", base + ".csv"]
+            command += ["--statistics", base + ".csv", "--write-lost"]  # a pose for each row
         judge = [self.programs.path("evaluate_trajectory"),
                  os.path.join(folder, "groundtruth.txt"), base + ".txt"]
         self.results.run_once(Job("run/" + name, [command + [">", base + ".summary"],

@@ -23,7 +23,9 @@ void run(int argc, char** argv) {
   const mivo::TrackingOptions options = tracking.options(line);
 
   mivo::BagSource source(bag, topics, options.range);
-  print(std::cout, trackFrames(source, options));
+  const mivo::TrackingSummary summary = trackFrames(source, options);
+  print(std::cout, summary);
+  requireTracked(summary);
 }
 
 }  // namespace

@@ -21,7 +21,9 @@ void run(int argc, char** argv) {
 
   mivo::SequenceReader sequence(folder, options.range);
   if (!sequence.notice().empty()) std::cerr << "run_sequence: note: " << sequence.notice() << "\n";
-  print(std::cout, trackFrames(sequence, options));
+  const mivo::TrackingSummary summary = trackFrames(sequence, options);
+  print(std::cout, summary);
+  requireTracked(summary);
 }
 
 }  // namespace

@@ -42,6 +42,8 @@ void TrackingCommandLine::declare(CommandLine& line) {
       "count", po::value(&count_)->value_name("N"), "number of frames (default: all)")(
       "threads", po::value(&threads_)->value_name("N"), "short for --set threads=...")(
       "statistics", po::value(&statistics_)->value_name("FILE.csv"), "write one row per frame")(
+      "write-lost", po::bool_switch(&write_lost_),
+      "write the guessed poses of lost frames, too; the trajectory does not say which they are")(
       "force", po::bool_switch(&force_), "replace existing files")(
       "reference", po::value(&reference_)->value_name("first"),
       "the first frame stays the only keyframe, and each frame starts from the last frame's pose")(
@@ -57,6 +59,7 @@ TrackingOptions TrackingCommandLine::options(const CommandLine& line) const {
   options.output = output_;
   options.statistics = statistics_;
   options.force = force_;
+  options.write_lost = write_lost_;
   if (start_ < 0) throw UsageError("--start must not be negative");
   options.range.start = static_cast<std::size_t>(start_);
   if (line.has("count")) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "programs/tracking_run.h"
 
+#include <fmt/format.h>
+
 #include <iostream>
 #include <memory>
 #include <opencv2/core/utility.hpp>
@@ -18,11 +20,13 @@ namespace {
 
 constexpr std::size_t kToldFaults = 10;  // skipped frames told one by one; the rest only count
 
-void count(const TrackingResult& result, TrackingSummary& summary) {
+void count(const TrackingResult& result, const Frame& frame, TrackingSummary& summary) {
   ++summary.frames;
   switch (result.state) {
     case TrackingState::kInitialising:
       ++summary.initialising;
+      summary.initialising_reason = describeReason(result);
+      summary.initialising_depth = sampleDepth(frame);
       break;
     case TrackingState::kTracking:
       ++summary.tracked;
@@ -47,7 +51,25 @@ const TrackingResult& process(Odometry& odometry, const Frame& frame,
   return odometry.process(frame, odometry.predictedPose(frame.stamp) * disturbance->next());
 }
 
+void refuse(const TrackingResult& result, TrackingSummary& summary) {
+  const std::string reason = describeReason(result);
+  if (++summary.refused_frames[reason] > 1) return;
+  std::cerr << fmt::format("refused: frame at {:.6f} s: {}; others like it are counted\n",
+                           result.stamp, reason);
+}
+
+/// Whether the trajectory gets the pose.
+bool isWanted(const TrackingResult& result, const TrackingOptions& options) {
+  return result.isMeasured() || (result.state == TrackingState::kLost && options.write_lost);
+}
+
 }  // namespace
+
+std::size_t TrackingSummary::numRefused() const {
+  std::size_t sum = 0;
+  for (const auto& [reason, number] : refused_frames) sum += number;
+  return sum;
+}
 
 TrackingSummary trackFrames(FrameSource& source, const TrackingOptions& options) {
   // OpenCV warns of more threads than there are processors; the result is the same.
@@ -77,15 +99,23 @@ TrackingSummary trackFrames(FrameSource& source, const TrackingOptions& options)
     }
     const double start = processMilliseconds();
     const TrackingResult& result = process(odometry, frame, disturbance);
-    cpu_times.push_back(processMilliseconds() - start);
-    trajectory.write({frame.stamp, result.T_odom_camera});
-    if (statistics) statistics->write(frame.stamp, result, cpu_times.back());
-    count(result, summary);
+    const double cpu_ms = processMilliseconds() - start;
+    if (result.isRefused()) {
+      progress.clear();
+      refuse(result, summary);
+      progress.advance();
+      continue;
+    }
+    cpu_times.push_back(cpu_ms);
+    if (isWanted(result, options)) trajectory.write({frame.stamp, result.T_odom_camera});
+    if (statistics) statistics->write(frame.stamp, result, cpu_ms);
+    count(result, frame, summary);
     progress.advance();
   }
-  if (summary.frames == 0) {
+  if (summary.frames + summary.numRefused() == 0) {
     throw Error("there was no frame to track" + (fault.empty() ? fault : ": " + fault));
   }
+  if (cpu_times.empty()) return summary;
   summary.cpu_ms_median = quantile(cpu_times, 0.5);
   summary.cpu_ms_p95 = quantile(cpu_times, 0.95);
   return summary;
@@ -98,12 +128,35 @@ void print(std::ostream& stream, const TrackingSummary& summary) {
          << "degraded: " << summary.degraded << "\n"
          << "lost: " << summary.lost << "\n"
          << "skipped_frames: " << summary.skipped_frames << "\n"
+         << "refused_frames: " << summary.numRefused() << "\n"
          << "keyframes: " << summary.keyframes << "\n"
          << "segments: " << summary.segments << "\n"
          << "rolling_shutter_readout_s: " << summary.rolling_shutter_readout << "\n"
          << "depth_time_offset_s: " << summary.depth_time_offset << "\n"
          << "cpu_ms_median: " << summary.cpu_ms_median << "\n"
          << "cpu_ms_p95: " << summary.cpu_ms_p95 << "\n";
+}
+
+void requireTracked(const TrackingSummary& summary) {
+  const std::size_t refused = summary.numRefused();
+  const std::size_t measured = summary.tracked + summary.degraded;
+  const bool is_alone = measured == 1 && summary.frames == 1 && refused > 0;
+  if ((measured > 0 && !is_alone) || summary.lost > 0) return;
+  std::string text = "nothing was tracked";
+  if (summary.initialising > 0) {
+    const DepthSample& depth = summary.initialising_depth;
+    text += fmt::format("; {} frames: {}, ", summary.initialising, summary.initialising_reason);
+    text += depth.median > 0.0
+                ? fmt::format(
+                      "{:.0f} % of the pixels have depth, its median is {:.4g} m (is the "
+                      "unit of depth right?)",
+                      100.0 * depth.coverage, depth.median)
+                : std::string("no pixel has depth");
+  }
+  for (const auto& [reason, number] : summary.refused_frames) {
+    text += fmt::format("; {} frames refused: {}", number, reason);
+  }
+  throw Error(text);
 }
 
 }  // namespace mivo

@@ -118,6 +118,19 @@ TEST_F(RunSequenceTest, BrokenFramesAreSkippedAndTold) {
   EXPECT_LT(largestError(1), kTolerance);
 }
 
+TEST_F(RunSequenceTest, ARunWithoutATrackedFrameFails) {
+  std::string calibration = contentOf(sequence_ + "/camera.txt");
+  const std::string::size_type at = calibration.find("1000");  // grey values in a metre
+  ASSERT_NE(at, std::string::npos) << calibration;
+  calibration.replace(at, 4, "1000000");
+  folder_.write("sequence/camera.txt", calibration);
+  const ProcessResult result = track({});
+  EXPECT_EQ(result.exit_code, 1);
+  EXPECT_EQ(valueOf(result.output, "initialising"), kFrames);
+  EXPECT_NE(result.errors.find("nothing was tracked"), std::string::npos) << result.errors;
+  EXPECT_NE(result.errors.find("its median is 0.001468 m"), std::string::npos) << result.errors;
+}
+
 TEST_F(RunSequenceTest, ExistingFilesAreKeptWithoutForce) {
   folder_.write("trajectory.txt", "mine");
   expectRefusal(track({}), 1, output_ + " exists");
