@@ -96,7 +96,7 @@ void OdometryNode::process(const ImagePair& pair) {
     const MessageFrame input = toFrame(pair, rectified_);
     track(pair, input, threadMilliseconds() - begin);
   } catch (const std::exception& error) {  // whatever it is: the manager's other nodelets go on
-    skipped_.add(error.what());
+    skipped_.add(error.what(), ros::WallTime::now());
   }
 }
 
@@ -143,11 +143,11 @@ void OdometryNode::track(const ImagePair& pair, const MessageFrame& input, doubl
   account.conversion_cpu_ms = conversion_ms;
   account.pairing_offset = (pair.depth->header.stamp - header.stamp).toSec();
   if (result.isRefused()) {
-    skipped_.add(describeReason(result));
+    skipped_.add(describeReason(result), ros::WallTime::now());
   } else {
     ++num_frames_;
     record(result);
-    state_log_.add(result);
+    state_log_.add(result, ros::WallTime::now());
     publish(pair, T_base_camera, account);
   }
   account.frames = num_frames_;

@@ -13,7 +13,7 @@ constexpr char kOtherReasons[] = "other reasons";
 
 }  // namespace
 
-void SkippedFrames::add(const std::string& reason) {
+bool SkippedFrames::add(const std::string& reason, const ros::WallTime& now) {
   const std::lock_guard<std::mutex> lock(mutex_);
   const bool has_room =
       counts_.by_reason.size() < kMaxReasons || counts_.by_reason.count(reason) > 0;
@@ -21,11 +21,11 @@ void SkippedFrames::add(const std::string& reason) {
   ++counts_.total;
   counts_.last_reason = reason;
   const std::uint64_t number = ++counts_.by_reason[key];
-  const ros::WallTime now = ros::WallTime::now();
   ros::WallTime& told = told_[key];
-  if ((now - told).toSec() < kReminderPeriod) return;
+  if ((now - told).toSec() < kReminderPeriod) return false;
   told = now;
   ROS_WARN("frame skipped: %s (%lu so far)", reason.c_str(), static_cast<unsigned long>(number));
+  return true;
 }
 
 SkipCounts SkippedFrames::counts() const {

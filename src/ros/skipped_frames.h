@@ -21,8 +21,9 @@ struct SkipCounts {
 /// thread.
 class SkippedFrames {
  public:
-  /// Counts a frame, and tells a new reason at once, one that lasts every minute.
-  void add(const std::string& reason);
+  /// Counts a frame, and tells a new reason at once, one that lasts every minute. Returns whether
+  /// it was told.
+  bool add(const std::string& reason, const ros::WallTime& now);
 
   SkipCounts counts() const;
 

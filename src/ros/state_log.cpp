@@ -10,11 +10,10 @@ constexpr double kReasonPeriod = 5.0;  // s
 
 }  // namespace
 
-void StateLog::add(const TrackingResult& result) {
+bool StateLog::add(const TrackingResult& result, const ros::WallTime& now) {
   const std::string reason = describeReason(result);
-  const ros::WallTime now = ros::WallTime::now();
   const bool is_other_reason = reason != reason_ && (now - told_).toSec() >= kReasonPeriod;
-  if (result.state == state_ && !is_other_reason) return;
+  if (result.state == state_ && !is_other_reason) return false;
   state_ = result.state;
   reason_ = reason;
   told_ = now;
@@ -23,6 +22,7 @@ void StateLog::add(const TrackingResult& result) {
   } else {
     ROS_WARN("%s: %s", toString(result.state), reason.c_str());
   }
+  return true;
 }
 
 }  // namespace mivo

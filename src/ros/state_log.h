@@ -13,7 +13,8 @@ namespace mivo {
 /// more often than every few seconds.
 class StateLog {
  public:
-  void add(const TrackingResult& result);
+  /// Returns whether there was something to tell.
+  bool add(const TrackingResult& result, const ros::WallTime& now);
 
  private:
   TrackingState state_ = TrackingState::kInitialising;
