@@ -64,14 +64,21 @@ std::chrono::milliseconds CameraSession::step(Time now) {
   if (status_.state == CameraState::kEnded) {
     return times_.check;
   }
+  try {
+    return advance(now);
+  } catch (const DeviceError& error) {
+    failed(error, now);
+  } catch (const std::exception& error) {  // whatever it is: the process has other things to do
+    failed(DeviceError(DeviceFault::kUnexpected, error.what()), now);
+  }
+  return pause_;
+}
+
+std::chrono::milliseconds CameraSession::advance(Time now) {
   if (!device_) {
     return connect(now);
   }
-  try {
-    stepDevice(now);
-  } catch (const DeviceError& error) {
-    failed(error, now);
-  }
+  stepDevice(now);
   return status_.state == CameraState::kStreaming ? std::chrono::milliseconds(0) : times_.check;
 }
 
@@ -80,12 +87,7 @@ std::chrono::milliseconds CameraSession::connect(Time now) {
     return std::chrono::duration_cast<std::chrono::milliseconds>(next_attempt_ - now) +
            std::chrono::milliseconds(1);
   }
-  try {
-    device_ = factory_(request_);
-  } catch (const DeviceError& error) {
-    failed(error, now);
-    return pause_;
-  }
+  device_ = factory_(request_);
   opened();
   return std::chrono::milliseconds(0);
 }
@@ -291,6 +293,7 @@ void CameraSession::applySettings() {
 
 CameraStatus CameraSession::status() const {
   CameraStatus status = status_;
+  status.listener_fault = listener_.fault();
   status.clock_skew = clock_filter_.skew();
   for (std::size_t i = 0; i < streams_.size(); ++i) {
     const RateMonitor& monitor = streams_[i].monitor;

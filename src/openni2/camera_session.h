@@ -10,6 +10,7 @@
 #include <string>
 
 #include "openni2/camera_device.h"
+#include "openni2/camera_listener.h"
 #include "openni2/clock_filter.h"
 #include "openni2/device_error.h"
 #include "openni2/rate_monitor.h"
@@ -37,6 +38,7 @@ struct CameraStatus {
   CameraState state = CameraState::kConnecting;
   std::optional<DeviceFault> fault;  ///< why it waits
   std::string message;               ///< one line for the user
+  std::string listener_fault;        ///< what the listener threw last; empty: nothing
   bool slow = false;                 ///< a stream delivers markedly less than it should
   int failures = 0;                  ///< attempts in a row that failed
   int reconnections = 0;             ///< devices opened after the first
@@ -44,22 +46,6 @@ struct CameraStatus {
   std::array<StreamStatistics, kStreamKinds> streams;
   DeviceDescription device;  ///< of the last device that was open
   CameraSettings settings;   ///< as read back from the camera
-};
-
-enum class Severity { kInfo, kWarning, kError };
-
-/// Hears what the session does, in the thread that calls CameraSession::step.
-class CameraListener {
- public:
-  virtual ~CameraListener() = default;
-  /// @param stamp host time at which the image was taken, ns
-  virtual void onImage(const ImageView& image, std::int64_t stamp) = 0;
-  /// Something changed that the user should read: one line, once per change.
-  virtual void onMessage(Severity severity, const std::string& line) = 0;
-  /// A device was opened.
-  virtual void onDevice(const DeviceDescription& device) = 0;
-  /// The camera's true settings, after they were applied.
-  virtual void onSettings(const CameraSettings& settings) = 0;
 };
 
 struct StreamDemand {
@@ -113,6 +99,7 @@ class CameraSession {
     RateMonitor monitor;
   };
 
+  std::chrono::milliseconds advance(Time now);
   std::chrono::milliseconds connect(Time now);
   void opened();
   void failed(const DeviceError& error, Time now);
@@ -131,7 +118,7 @@ class CameraSession {
   SessionTimes times_;
   DeviceFactory factory_;
   HostClock host_clock_;
-  CameraListener& listener_;
+  GuardedListener listener_;
 
   StreamDemand demand_;
   CameraSettings wanted_settings_;

@@ -29,6 +29,8 @@ const char* toString(DeviceFault fault) {
       return "USB trouble";
     case DeviceFault::kLost:
       return "connection lost";
+    case DeviceFault::kUnexpected:
+      return "unexpected";
   }
   return "unknown";
 }
@@ -65,6 +67,8 @@ const char* adviceFor(DeviceFault fault) {
              "doc/xtion.md for USB 3 (xHCI)";
     case DeviceFault::kLost:
       return "Check the cable and plug the camera in again";
+    case DeviceFault::kUnexpected:
+      return "The device is opened again; if that does not help, please report it";
   }
   return "";
 }

@@ -20,7 +20,8 @@ enum class DeviceFault {
   kNoMode,          ///< size, rate or format is not offered
   kBadRecording,    ///< the file is no recording that can be played
   kUsb,             ///< the USB transfer could not be set up
-  kLost             ///< it delivered, and stopped
+  kLost,            ///< it delivered, and stopped
+  kUnexpected       ///< something that none of the above explains
 };
 
 /// One or two words, e.g. "in use".

@@ -55,6 +55,7 @@ void CameraDiagnostics::fill(diagnostic_updater::DiagnosticStatusWrapper& status
   status.add("state", toString(camera.state));
   status.add("fault", camera.fault ? toString(*camera.fault) : "none");
   status.add("message", camera.message);
+  status.add("unused because", camera.listener_fault.empty() ? "none" : camera.listener_fault);
   status.add("device", camera.device.name);
   status.add("uri", camera.device.uri);
   status.add("serial", camera.device.serial);

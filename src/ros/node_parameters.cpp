@@ -32,6 +32,7 @@ void visit(NodeParameters& p, Visitor&& visitor) {
   visitor("trajectory_folder", p.trajectory_folder);
   visitor("trajectory_file", p.trajectory_file);
   visitor("trajectory_force", p.trajectory_force);
+  visitor("write_lost", p.write_lost);
 }
 
 /// tf2 knows frames without a leading slash only.

@@ -36,6 +36,7 @@ struct NodeParameters {
   std::string trajectory_folder = ".";  ///< for relative paths of trajectories
   std::string trajectory_file;          ///< written pose by pose while it runs; empty: none
   bool trajectory_force = false;        ///< an existing trajectory_file is replaced
+  bool write_lost = false;              ///< trajectories have the guesses of lost frames, too
 };
 
 /// Throws Error, naming the parameter, for a wrong type, a value out of range, or frames that

@@ -46,12 +46,7 @@ void OdometryDiagnostics::addFrame(const TrackingStatus& status, const DepthSamp
                       status.latency, status.processing_latency, status.pairing_offset});
 }
 
-void OdometryDiagnostics::addSkipped(const std::string& reason) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  skip_reason_ = reason;
-}
-
-void OdometryDiagnostics::publish(const std::vector<InputCount>& counts, std::uint64_t skipped,
+void OdometryDiagnostics::publish(const std::vector<InputCount>& counts, const SkipCounts& skipped,
                                   std::uint64_t dropped) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -60,7 +55,7 @@ void OdometryDiagnostics::publish(const std::vector<InputCount>& counts, std::ui
     last_publication_ = now;
     counts_before_ = counts_.empty() ? counts : counts_;
     counts_ = counts;
-    skipped_before_ = skipped_;
+    skipped_before_ = skipped_.total;
     skipped_ = skipped;
     dropped_ = dropped;
     while (!samples_.empty() && (now - samples_.front().arrival).toSec() > kWindow) {
@@ -119,11 +114,11 @@ void OdometryDiagnostics::input(Wrapper& status) {
   }
   status.addf("pixels with depth", "%.2f", depth_.coverage);
   status.addf("median depth (m)", "%.2f", depth_.median);
-  status.add("skipped frames", skipped_);
   status.add("dropped frames", dropped_);
-  status.add("last reason to skip a frame", skip_reason_);
-  if (skipped_ > skipped_before_) {
-    status.summary(Level::WARN, "frames skipped: " + skip_reason_);
+  status.add("skipped frames", skipped_.total);
+  for (const auto& [reason, number] : skipped_.by_reason) status.add("skipped: " + reason, number);
+  if (skipped_.total > skipped_before_) {
+    status.summary(Level::WARN, "frames skipped: " + skipped_.last_reason);
   } else if (samples_.empty()) {
     status.summary(Level::WARN, "no frames");
   } else if (slowest > 1.0 && pairs + 1.0 < kPairedPart * slowest) {

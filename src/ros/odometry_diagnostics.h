@@ -9,6 +9,7 @@
 #include <string>
 
 #include "ros/frame_input.h"
+#include "ros/skipped_frames.h"
 #include "session/depth_sample.h"
 
 namespace mivo {
@@ -25,10 +26,10 @@ class OdometryDiagnostics {
   void setPaused(bool paused);
 
   void addFrame(const TrackingStatus& status, const DepthSample& depth);
-  void addSkipped(const std::string& reason);
 
   /// Publishes. `counts`: as FrameInput gives them, or empty.
-  void publish(const std::vector<InputCount>& counts, std::uint64_t skipped, std::uint64_t dropped);
+  void publish(const std::vector<InputCount>& counts, const SkipCounts& skipped,
+               std::uint64_t dropped);
 
  private:
   void tracking(diagnostic_updater::DiagnosticStatusWrapper& status);
@@ -48,8 +49,7 @@ class OdometryDiagnostics {
   bool paused_ = false;
   TrackingStatus last_;
   DepthSample depth_;
-  std::string skip_reason_;
-  std::uint64_t skipped_ = 0;
+  SkipCounts skipped_;
   std::uint64_t skipped_before_ = 0;  // when published last
   std::uint64_t dropped_ = 0;
   std::vector<InputCount> counts_;

@@ -7,7 +7,6 @@
 #include "mivo/core/error.h"
 #include "ros/camera_conversion.h"
 #include "ros/parameter_server.h"
-#include "ros/status_conversion.h"
 
 namespace mivo {
 namespace {
@@ -35,9 +34,9 @@ OdometryNode::OdometryNode(const ros::NodeHandle& node, const ros::NodeHandle& p
       warnings_(parameters_),
       session_(readParameters(private_node)),
       trajectory_(parameters_),
-      publisher_(private_node, parameters_),
-      display_(private_node, parameters_),
-      transforms_(node, parameters_.base_frame, parameters_.guess_frame_id) {
+      output_(private_node, parameters_),
+      transforms_(node, parameters_.base_frame, parameters_.guess_frame_id),
+      guess_(transforms_, parameters_) {
   ros::NodeHandle service_node = withQueue(private_node, service_queue_);
   input_ = std::make_unique<FrameInput>(withQueue(private_node, input_queue_), parameters_,
                                         [this](const ImagePair& pair) { frames_.push(pair); });
@@ -67,7 +66,9 @@ OdometryNode::~OdometryNode() {
   input_->stop();
   frames_.close();
   worker_.join();
-  if (skipped_ > 0) ROS_WARN_STREAM(skipped_ << " frames were skipped");
+  for (const auto& [reason, number] : skipped_.counts().by_reason) {
+    ROS_WARN_STREAM(number << " frames were skipped: " << reason);
+  }
 }
 
 void OdometryNode::work() {
@@ -95,14 +96,8 @@ void OdometryNode::process(const ImagePair& pair) {
     const MessageFrame input = toFrame(pair, rectified_);
     track(pair, input, threadMilliseconds() - begin);
   } catch (const std::exception& error) {  // whatever it is: the manager's other nodelets go on
-    skip(error.what());
+    skipped_.add(error.what(), ros::WallTime::now());
   }
-}
-
-void OdometryNode::skip(const std::string& reason) {
-  ++skipped_;
-  diagnostics_.addSkipped(reason);
-  ROS_WARN_THROTTLE(kLogPeriod, "frame skipped: %s", reason.c_str());
 }
 
 bool OdometryNode::acceptStamp(const ros::Time& stamp) {
@@ -135,52 +130,55 @@ void OdometryNode::startTrajectory() {
 }
 
 void OdometryNode::track(const ImagePair& pair, const MessageFrame& input, double conversion_ms) {
-  const ros::Time stamp = pair.colour->header.stamp;
+  const std_msgs::Header& header = pair.colour->header;
   const std::optional<Eigen::Isometry3d> T_base_camera =
-      transforms_.baseCamera(pair.colour->header.frame_id, stamp);
+      transforms_.baseCamera(header.frame_id, header.stamp);
+  guess_.look(header.stamp, T_base_camera);  // waits for tf: services must not wait for that too
   warnings_.lookAtFrames(pair, transforms_);
 
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (!acceptStamp(stamp)) {
-    skip("its stamp is not newer than that of the frame before");
-    return;
+  const TrackingResult& result = follow(input, header.stamp);
+  FrameAccount account;
+  account.header = header;
+  account.conversion_cpu_ms = conversion_ms;
+  account.pairing_offset = (pair.depth->header.stamp - header.stamp).toSec();
+  if (result.isRefused()) {
+    skipped_.add(describeReason(result), ros::WallTime::now());
+  } else {
+    ++num_frames_;
+    record(result);
+    state_log_.add(result, ros::WallTime::now());
+    publish(pair, T_base_camera, account);
   }
-  if (session_.setCamera(input.camera)) {
-    ROS_WARN("the camera's calibration has changed: tracking starts anew at the last pose");
-  }
-  std::optional<Eigen::Isometry3d> start;
-  if (T_base_camera && num_frames_ > 0) start = guessedStart(stamp, *T_base_camera);
-  const TrackingResult& result = session_.process(input.frame, start ? &*start : nullptr);
-  last_stamp_ = stamp;
-  ++num_frames_;
-  record(result);
-  logState(result);
-
-  TrackingStatus status = toMessage(result);
-  status.frames = num_frames_;
-  status.conversion_cpu_ms = conversion_ms;
-  publish(pair, status, T_base_camera);
+  account.frames = num_frames_;
+  account.skipped_frames = skipped_.counts().total;
+  account.dropped_frames = frames_.dropped();
+  account.latency = (ros::Time::now() - header.stamp).toSec();
+  const TrackingStatus status = toMessage(result, account);
+  output_.publishStatus(status);
+  if (result.isRefused()) return;
   const DepthSample depth = sampleDepth(input.frame);
   warnings_.lookAtDepth(depth);
   diagnostics_.addFrame(status, depth);
 }
 
-std::optional<Eigen::Isometry3d> OdometryNode::guessedStart(
-    const ros::Time& stamp, const Eigen::Isometry3d& T_base_camera) {
-  if (parameters_.guess_frame_id.empty() || stamp <= last_stamp_) return std::nullopt;
-  const std::optional<Eigen::Isometry3d> motion =
-      transforms_.baseMotion(last_stamp_, stamp, ros::WallDuration(parameters_.tf_timeout));
-  if (!motion) {
-    ROS_WARN_THROTTLE(kLogPeriod,
-                      "tf does not know how %s moved in %s between the last two frames: tracking "
-                      "starts from its own prediction",
-                      parameters_.base_frame.c_str(), parameters_.guess_frame_id.c_str());
-    return std::nullopt;
+/// A frame that is not newer than the one before is left to the tracker to refuse.
+const TrackingResult& OdometryNode::follow(const MessageFrame& input, const ros::Time& stamp) {
+  if (acceptStamp(stamp) && session_.setCamera(input.camera)) {
+    ROS_WARN("the camera's calibration has changed: tracking starts anew at the last pose");
   }
-  return session_.result().T_odom_camera * T_base_camera.inverse() * *motion * T_base_camera;
+  const std::optional<Eigen::Isometry3d> start =
+      guess_.start(session_.lastMeasured(), session_.parameters().loss);
+  const TrackingResult& result = session_.process(input.frame, start ? &*start : nullptr);
+  if (!result.isRefused()) last_stamp_ = stamp;
+  if (result.isMeasured()) guess_.keep();
+  return result;
 }
 
+/// Poses that were measured; guesses only when asked for.
 void OdometryNode::record(const TrackingResult& result) {
+  const bool is_wanted = result.state == TrackingState::kLost && parameters_.write_lost;
+  if (!result.isMeasured() && !is_wanted) return;
   try {
     trajectory_.add({result.stamp, result.T_odom_camera});
   } catch (const Error& error) {
@@ -188,79 +186,32 @@ void OdometryNode::record(const TrackingResult& result) {
   }
 }
 
-void OdometryNode::publish(const ImagePair& pair, TrackingStatus& status,
-                           const std::optional<Eigen::Isometry3d>& T_base_camera) {
-  const std_msgs::Header& header = pair.colour->header;
+void OdometryNode::publish(const ImagePair& pair,
+                           const std::optional<Eigen::Isometry3d>& T_base_camera,
+                           FrameAccount& account) {
   if (T_base_camera) {
-    T_base_camera_ = *T_base_camera;
-    // The odometry frame is the first pose of the base.
-    if (!T_odom_world_) T_odom_world_ = T_base_camera_;
-    publishOdometry(header.stamp, T_base_camera_);
+    output_.publishOdometry(session_, account.header.stamp, *T_base_camera, guess_.T_guess_base());
   }
-  status.processing_latency = (ros::WallTime::now() - pair.arrival()).toSec();
-  if (T_base_camera) {
-    display_.publish(session_.odometry(), session_.result().keyframes, *T_odom_world_, header);
-  }
-  status.header = header;
-  status.skipped_frames = skipped_;
-  status.dropped_frames = frames_.dropped();
-  status.pairing_offset = (pair.depth->header.stamp - header.stamp).toSec();
-  status.latency = (ros::Time::now() - header.stamp).toSec();
-  publisher_.publish(status);
-}
-
-void OdometryNode::publishOdometry(const ros::Time& stamp, const Eigen::Isometry3d& T_base_camera) {
-  const TrackingResult& result = session_.result();
-  const bool measured =
-      result.state == TrackingState::kTracking || result.state == TrackingState::kDegraded;
-  if (!measured && !parameters_.publish_when_lost) return;
-  BaseOdometry odometry = toBase(result, session_.twistCovariance(), *T_odom_world_, T_base_camera);
-  if (!measured) {
-    odometry.pose_covariance = odometry.twist_covariance = Matrix6::Identity() * kUnknownVariance;
-  }
-  if (parameters_.two_d_mode) odometry = inPlane(odometry);
-  std::optional<Eigen::Isometry3d> T_guess_base;
-  if (!parameters_.guess_frame_id.empty()) T_guess_base = transforms_.guessBase(stamp);
-  publisher_.publish(odometry, stamp, T_guess_base);
-}
-
-void OdometryNode::logState(const TrackingResult& result) {
-  if (result.state == last_state_) return;
-  last_state_ = result.state;
-  if (result.state == TrackingState::kTracking) {
-    ROS_INFO("tracking, keyframe %d", result.keyframes);
-  } else {
-    ROS_WARN("%s: %s", toString(result.state), toString(result.reason));
-  }
+  account.processing_latency = (ros::WallTime::now() - pair.arrival()).toSec();
+  if (T_base_camera) output_.publishDisplay(session_, account.header);
 }
 
 void OdometryNode::publishDiagnostics() {
-  diagnostics_.publish(input_->counts(), skipped_, frames_.dropped());
+  diagnostics_.publish(input_->counts(), skipped_.counts(), frames_.dropped());
 }
 
 void OdometryNode::reset() {
   const std::lock_guard<std::mutex> lock(mutex_);
   session_.reset();
-  T_odom_world_.reset();
   num_frames_ = 0;
   startTrajectory();
-  publisher_.clearPath();
-  display_.clear();
+  output_.reset();
   ROS_INFO("reset");
 }
 
 void OdometryNode::setPose(const Eigen::Isometry3d& T_odom_base) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (!T_odom_world_) {
-    throw Error(
-        "no pose has been published yet: there is no frame, or tf does not know the camera");
-  }
-  const Eigen::Isometry3d T_odom_world =
-      T_odom_base * T_base_camera_ * session_.result().T_odom_camera.inverse();
-  const Eigen::Isometry3d T_new_old = T_odom_world * T_odom_world_->inverse();
-  T_odom_world_ = T_odom_world;
-  publisher_.movePath(T_new_old);
-  display_.move(T_new_old);
+  output_.setPose(T_odom_base, session_);
 }
 
 void OdometryNode::setPaused(bool paused) {

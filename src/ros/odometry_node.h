@@ -10,16 +10,19 @@
 #include <string>
 #include <thread>
 
-#include "ros/display_publisher.h"
 #include "ros/frame_input.h"
 #include "ros/frame_queue.h"
 #include "ros/input_warnings.h"
 #include "ros/message_frame.h"
+#include "ros/motion_guess.h"
 #include "ros/node_parameters.h"
 #include "ros/odometry_diagnostics.h"
-#include "ros/odometry_publisher.h"
+#include "ros/odometry_output.h"
 #include "ros/odometry_services.h"
 #include "ros/reconfigure_server.h"
+#include "ros/skipped_frames.h"
+#include "ros/state_log.h"
+#include "ros/status_conversion.h"
 #include "ros/trajectory_recorder.h"
 #include "ros/transform_source.h"
 #include "session/tracking_session.h"
@@ -40,18 +43,14 @@ class OdometryNode : private OdometryActions {
  private:
   void work();
   void process(const ImagePair& pair);
-  bool acceptStamp(const ros::Time& stamp);
-  std::optional<Eigen::Isometry3d> guessedStart(const ros::Time& stamp,
-                                                const Eigen::Isometry3d& T_base_camera);
   void track(const ImagePair& pair, const MessageFrame& input, double conversion_ms);
-  void publish(const ImagePair& pair, TrackingStatus& status,
-               const std::optional<Eigen::Isometry3d>& T_base_camera);
-  void publishOdometry(const ros::Time& stamp, const Eigen::Isometry3d& T_base_camera);
+  const TrackingResult& follow(const MessageFrame& input, const ros::Time& stamp);
+  bool acceptStamp(const ros::Time& stamp);
+  void publish(const ImagePair& pair, const std::optional<Eigen::Isometry3d>& T_base_camera,
+               FrameAccount& account);
   void record(const TrackingResult& result);
   void restartAfterJump(const ros::Time& stamp);
   void startTrajectory();
-  void skip(const std::string& reason);
-  void logState(const TrackingResult& result);
   void publishDiagnostics();
 
   void reset() override;
@@ -67,23 +66,21 @@ class OdometryNode : private OdometryActions {
   ros::CallbackQueue input_queue_;
   ros::CallbackQueue service_queue_;
   FrameQueue<ImagePair> frames_;
-  std::atomic<std::uint64_t> skipped_{0};
+  SkippedFrames skipped_;
   std::atomic<bool> paused_{false};
   InputWarnings warnings_;  // the worker's own
 
   std::mutex mutex_;  // guards the tracker and what belongs to it, from here to the empty line
   TrackingSession session_;
   TrajectoryRecorder trajectory_;
-  OdometryPublisher publisher_;
-  DisplayPublisher display_;
-  std::optional<Eigen::Isometry3d> T_odom_world_;  // known once tf has said where the camera sits
-  Eigen::Isometry3d T_base_camera_ = Eigen::Isometry3d::Identity();  // of the last frame
+  OdometryOutput output_;
+  StateLog state_log_;
   ros::Time last_stamp_;
   std::uint64_t num_frames_ = 0;
   int stale_frames_ = 0;  // in a row
-  TrackingState last_state_ = TrackingState::kInitialising;
 
   TransformSource transforms_;
+  MotionGuess guess_;  // the worker's own
   std::unique_ptr<FrameInput> input_;
   std::unique_ptr<OdometryServices> services_;
   std::unique_ptr<ReconfigureServer> reconfigure_;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <nodelet/nodelet.h>
 
+#include <exception>
 #include <memory>
 #include <pluginlib/class_list_macros.hpp>
 
-#include "mivo/core/error.h"
 #include "ros/odometry_node.h"
 
 namespace mivo {
@@ -25,12 +25,12 @@ class OdometryNodelet : public nodelet::Nodelet {
     try {
       node_ =
           std::make_unique<OdometryNode>(getNodeHandle(), getPrivateNodeHandle(), *diagnostics_);
-    } catch (const Error& error) {
+    } catch (const std::exception& error) {  // whatever it is: the manager goes on
       NODELET_ERROR_STREAM("idle: " << error.what());
       diagnostics_->setFault(error.what());
       fault_timer_ = getNodeHandle().createWallTimer(
           ros::WallDuration(1.0),
-          [this](const ros::WallTimerEvent&) { diagnostics_->publish({}, 0, 0); });
+          [this](const ros::WallTimerEvent&) { diagnostics_->publish({}, {}, 0); });
     }
   }
 

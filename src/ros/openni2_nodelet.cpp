@@ -2,11 +2,11 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <nodelet/nodelet.h>
 
+#include <exception>
 #include <memory>
 #include <pluginlib/class_list_macros.hpp>
 #include <string>
 
-#include "mivo/core/error.h"
 #include "ros/openni2_node.h"
 
 namespace mivo {
@@ -18,7 +18,7 @@ class OpenNI2Nodelet : public nodelet::Nodelet {
   void onInit() override {
     try {
       node_ = std::make_unique<OpenNi2Node>(getNodeHandle(), getPrivateNodeHandle(), getName());
-    } catch (const Error& error) {
+    } catch (const std::exception& error) {  // whatever it is: the manager goes on
       NODELET_ERROR_STREAM("idle: " << error.what());
       fault_ = error.what();
       updater_ = std::make_unique<diagnostic_updater::Updater>(getNodeHandle(),

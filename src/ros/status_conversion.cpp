@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/status_conversion.h"
 
-#include <algorithm>
-
 namespace mivo {
 namespace {
 
@@ -61,18 +59,23 @@ LevelStatus toMessage(const LevelRecord& record) {
 
 }  // namespace
 
-TrackingStatus toMessage(const TrackingResult& result) {
+TrackingStatus toMessage(const TrackingResult& result, const FrameAccount& account) {
   TrackingStatus message;
+  message.header = account.header;
   message.state = code(result.state);
   message.state_text = toString(result.state);
   message.reason = code(result.reason);
   message.reason_text = describeReason(result);
-  std::copy(result.open_directions.begin(), result.open_directions.end(),
-            message.open_directions.begin());
+  for (std::size_t i = 0; i < message.open_directions.size(); ++i) {
+    message.open_directions[i] = result.open_directions[i] ? 1 : 0;
+  }
   message.keyframe = result.keyframe;
   message.new_keyframe = result.new_keyframe;
   message.keyframes = result.keyframes;
   message.segment = result.segment;
+  message.frames = account.frames;
+  message.skipped_frames = account.skipped_frames;
+  message.dropped_frames = account.dropped_frames;
   message.points = result.points;
   message.overlap = result.overlap;
   message.mutual_information = result.mutual_information;
@@ -82,10 +85,14 @@ TrackingStatus toMessage(const TrackingResult& result) {
   for (int i = 0; i < result.num_levels; ++i) {
     message.levels.push_back(toMessage(result.levels[static_cast<std::size_t>(i)]));
   }
+  message.conversion_cpu_ms = account.conversion_cpu_ms;
   message.pyramid_cpu_ms = result.milliseconds.pyramid;
   message.tracking_cpu_ms = result.milliseconds.tracking;
   message.keyframe_cpu_ms = result.milliseconds.keyframe;
   message.total_cpu_ms = result.milliseconds.total;
+  message.pairing_offset = account.pairing_offset;
+  message.latency = account.latency;
+  message.processing_latency = account.processing_latency;
   return message;
 }
 

@@ -7,8 +7,19 @@
 
 namespace mivo {
 
-/// The tracker's part of the message; header, counts of frames, latency and the times of the
-/// messages' way are left to the caller.
-TrackingStatus toMessage(const TrackingResult& result);
+/// What there is to say of a frame beside the tracker's result: the part of TrackingStatus that the
+/// node knows, in its units.
+struct FrameAccount {
+  std_msgs::Header header;  ///< of the colour image
+  std::uint64_t frames = 0;
+  std::uint64_t skipped_frames = 0;
+  std::uint64_t dropped_frames = 0;
+  double conversion_cpu_ms = 0.0;
+  double pairing_offset = 0.0;
+  double latency = 0.0;
+  double processing_latency = 0.0;
+};
+
+TrackingStatus toMessage(const TrackingResult& result, const FrameAccount& account);
 
 }  // namespace mivo

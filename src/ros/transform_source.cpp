@@ -9,6 +9,7 @@ namespace mivo {
 namespace {
 
 constexpr double kReminderPeriod = 10.0;  // s
+constexpr double kPollPeriod = 0.001;     // s
 constexpr double kIdentityTolerance = 1e-6;
 
 /// tf2 knows frames without a leading slash only; old bags have it.
@@ -57,28 +58,18 @@ std::optional<Eigen::Isometry3d> TransformSource::baseCamera(const std::string& 
   return T_base_camera_;
 }
 
-std::optional<Eigen::Isometry3d> TransformSource::baseMotion(const ros::Time& before,
-                                                             const ros::Time& now,
-                                                             const ros::WallDuration& timeout) {
+std::optional<Eigen::Isometry3d> TransformSource::guessBase(const ros::Time& stamp,
+                                                            const ros::WallDuration& timeout) {
   // Waited for in wall time: a simulated clock may stand still.
   const ros::WallTime deadline = ros::WallTime::now() + timeout;
-  while (!buffer_.canTransform(base_frame_, before, base_frame_, now, guess_frame_)) {
+  while (!buffer_.canTransform(guess_frame_, base_frame_, stamp)) {
     if (ros::WallTime::now() >= deadline) return std::nullopt;
-    ros::WallDuration(0.001).sleep();
+    ros::WallDuration(kPollPeriod).sleep();
   }
-  try {
-    return toIsometry(
-        buffer_.lookupTransform(base_frame_, before, base_frame_, now, guess_frame_).transform);
-  } catch (const std::exception&) {
-    return std::nullopt;  // forgotten between the two calls: as good as unknown
-  }
-}
-
-std::optional<Eigen::Isometry3d> TransformSource::guessBase(const ros::Time& stamp) {
   try {
     return toIsometry(buffer_.lookupTransform(guess_frame_, base_frame_, stamp).transform);
   } catch (const std::exception&) {
-    return std::nullopt;
+    return std::nullopt;  // forgotten between the two calls: as good as unknown
   }
 }
 

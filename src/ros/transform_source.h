@@ -23,13 +23,10 @@ class TransformSource {
   std::optional<Eigen::Isometry3d> baseCamera(const std::string& camera_frame,
                                               const ros::Time& stamp);
 
-  /// Motion of the base between two times as the frame of another odometry saw it, T_before_now;
-  /// nothing when tf does not know it within `timeout`.
-  std::optional<Eigen::Isometry3d> baseMotion(const ros::Time& before, const ros::Time& now,
-                                              const ros::WallDuration& timeout);
-
-  /// Pose of the base in the guess frame, as baseMotion.
-  std::optional<Eigen::Isometry3d> guessBase(const ros::Time& stamp);
+  /// Pose of the base in the frame of another odometry, T_guess_base; nothing when tf does not know
+  /// it within `timeout`.
+  std::optional<Eigen::Isometry3d> guessBase(const ros::Time& stamp,
+                                             const ros::WallDuration& timeout);
 
   /// Parent of the base in tf; empty when it has none.
   std::string parentOfBase();

@@ -10,6 +10,8 @@ struct DepthSample {
   double coverage = 0.0;  ///< part of the pixels with a reading, 0 to 1
   double median = 0.0;    ///< m, of the readings; 0: none
 };
+
+/// Of a frame that fits its camera.
 DepthSample sampleDepth(const Frame& frame);
 
 }  // namespace mivo

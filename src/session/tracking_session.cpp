@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "session/tracking_session.h"
 
+#include <algorithm>
+
 #include "session/twist_covariance.h"
 
 namespace mivo {
@@ -12,25 +14,31 @@ bool TrackingSession::setCamera(const Camera& camera) {
   if (is_change) {
     keyframe_offset_ += odometry_->result().keyframes;
     odometry->reset(result_.T_odom_camera);
-    startSegment();
   }
   odometry_ = std::move(odometry);
+  if (is_change) startSegment();
   return is_change;
 }
 
+/// The next frame begins a segment that none was in before.
 void TrackingSession::startSegment() {
-  segment_is_new_ = has_result_;
+  is_last_frame_measured_ = false;
+  segment_offset_ = num_segments_ - odometry_->result().segment;
 }
 
 void TrackingSession::restart() {
-  if (odometry_) odometry_->reset(result_.T_odom_camera);
+  last_measured_.reset();
+  if (!odometry_) return;
+  odometry_->reset(result_.T_odom_camera);
   startSegment();
 }
 
 void TrackingSession::reset() {
-  if (odometry_) odometry_->reset();
-  startSegment();
+  last_measured_.reset();
   result_.T_odom_camera.setIdentity();
+  if (!odometry_) return;
+  odometry_->reset();
+  startSegment();
 }
 
 void TrackingSession::setParameters(const Parameters& parameters) {
@@ -40,24 +48,26 @@ void TrackingSession::setParameters(const Parameters& parameters) {
 }
 
 const TrackingResult& TrackingSession::process(const Frame& frame, const Eigen::Isometry3d* start) {
-  const TrackingResult before = result_;
-  const TrackingResult& own =
-      start != nullptr ? odometry_->process(frame, *start) : odometry_->process(frame);
-  if (segment_is_new_) segment_offset_ = before.segment + 1 - own.segment;
-  const bool continued = has_result_ && !segment_is_new_;
-  segment_is_new_ = false;
-  has_result_ = true;
-  result_ = own;
+  result_ = start != nullptr ? odometry_->process(frame, *start) : odometry_->process(frame);
   result_.segment += segment_offset_;
   result_.keyframes += keyframe_offset_;
   if (result_.keyframe > 0) result_.keyframe += keyframe_offset_;
-  const bool measured = continued && before.segment == result_.segment &&
-                        before.state != TrackingState::kLost &&
-                        before.state != TrackingState::kInitialising;
-  twist_covariance_ =
-      mivo::twistCovariance(before.alignment_covariance, result_.alignment_covariance,
-                            measured ? result_.stamp - before.stamp : 0.0);
+  if (!result_.isRefused()) measure();
   return result_;
+}
+
+/// The velocity is that between two frames of one segment that follow each other.
+void TrackingSession::measure() {
+  num_segments_ = std::max(num_segments_, result_.segment + 1);
+  const bool continued = is_last_frame_measured_ && last_measured_segment_ == result_.segment;
+  twist_covariance_ =
+      mivo::twistCovariance(last_alignment_covariance_, result_.alignment_covariance,
+                            continued ? result_.stamp - last_measured_->stamp : 0.0);
+  is_last_frame_measured_ = result_.isMeasured();
+  if (!is_last_frame_measured_) return;
+  last_measured_ = StampedPose{result_.stamp, result_.T_odom_camera};
+  last_alignment_covariance_ = result_.alignment_covariance;
+  last_measured_segment_ = result_.segment;
 }
 
 }  // namespace mivo

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "mivo/core/odometry.h"
+#include "mivo/trajectory/stamped_pose.h"
 
 namespace mivo {
 
@@ -19,7 +20,8 @@ class TrackingSession {
   bool setCamera(const Camera& camera);
   bool hasCamera() const { return odometry_ != nullptr; }
 
-  /// Tracks a frame, from `start` when there is one. A camera must have been set.
+  /// Tracks a frame, from `start` when there is one: where another odometry says that the camera is
+  /// now, see lastMeasured(). A camera must have been set.
   const TrackingResult& process(const Frame& frame, const Eigen::Isometry3d* start);
 
   /// Starts anew at the last pose; stamps may begin anywhere.
@@ -34,6 +36,11 @@ class TrackingSession {
 
   const TrackingResult& result() const { return result_; }
 
+  /// The last pose that was measured, T_odom_camera, and its stamp: what a guess of the present one
+  /// has to start from, however long the camera has been lost since. Nothing before the first
+  /// frame, and after a start at a pose that was given (reset) or at another time (restart).
+  const std::optional<StampedPose>& lastMeasured() const { return last_measured_; }
+
   /// Covariance of result().velocity, in the axes of the camera.
   const Matrix6& twistCovariance() const { return twist_covariance_; }
 
@@ -42,14 +49,18 @@ class TrackingSession {
 
  private:
   void startSegment();
+  void measure();
 
   Parameters parameters_;
   std::unique_ptr<Odometry> odometry_;
   TrackingResult result_;
+  std::optional<StampedPose> last_measured_;
+  Matrix6 last_alignment_covariance_ = Matrix6::Identity();  // of last_measured_
+  int last_measured_segment_ = 0;                            // of it
+  bool is_last_frame_measured_ = false;
   Matrix6 twist_covariance_ = Matrix6::Identity();
-  bool has_result_ = false;
-  bool segment_is_new_ = false;  // the next result begins one
-  int segment_offset_ = 0;       // number of a segment minus the odometry's own
+  int num_segments_ = 0;    // that had a frame
+  int segment_offset_ = 0;  // number of a segment minus the odometry's own
   int keyframe_offset_ = 0;
 };
 

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -17,10 +18,17 @@ using std::chrono::milliseconds;
 class CameraSessionTest : public ::testing::Test, public CameraListener {
  public:
   void onImage(const ImageView& image, std::int64_t stamp) override {
+    if (!image_error_.empty()) {
+      ++refused_images_;
+      throw std::runtime_error(image_error_);
+    }
     ++images_[image.kind];
     stamps_.push_back(stamp);
   }
   void onMessage(Severity severity, const std::string& line) override {
+    if (!message_error_.empty()) {
+      throw std::runtime_error(message_error_);
+    }
     messages_.push_back(line);
     errors_ += severity == Severity::kError ? 1 : 0;
   }
@@ -67,12 +75,56 @@ class CameraSessionTest : public ::testing::Test, public CameraListener {
   std::map<StreamKind, int> images_;
   std::vector<std::int64_t> stamps_;
   std::vector<std::string> messages_;
+  std::string image_error_;    // thrown instead of taking an image
+  std::string message_error_;  // thrown instead of taking a message
+  int refused_images_ = 0;
   int errors_ = 0;
   int devices_ = 0;
   int steps_ = 0;
   std::optional<CameraSettings> reported_;
   std::unique_ptr<CameraSession> session_;
 };
+
+TEST_F(CameraSessionTest, WhatTheListenerThrowsIsToldOnceAndTheCameraGoesOn) {
+  session().setDemand({true, false});
+  runFor(milliseconds(1000));
+  image_error_ = "no memory for the message";
+  runFor(milliseconds(1000));
+  EXPECT_GT(refused_images_, 20);
+  EXPECT_TRUE(heard("no memory for the message"));
+  EXPECT_EQ(errors_, 1);
+  EXPECT_EQ(session().status().listener_fault, image_error_);
+  EXPECT_EQ(session().status().state, CameraState::kStreaming);
+  EXPECT_EQ(devices_, 1);
+  const int before = images_[StreamKind::kColor];
+  image_error_.clear();
+  runFor(milliseconds(1000));
+  EXPECT_GT(images_[StreamKind::kColor], before + 20);
+}
+
+TEST_F(CameraSessionTest, AListenerThatCannotEvenBeToldDoesNotEndTheSession) {
+  message_error_ = "the log is closed";
+  session().setDemand({true, false});
+  runFor(milliseconds(1000));
+  EXPECT_EQ(session().status().state, CameraState::kStreaming);
+  EXPECT_EQ(session().status().listener_fault, "the log is closed");
+  EXPECT_GT(images_[StreamKind::kColor], 5);
+}
+
+TEST_F(CameraSessionTest, AnUnexpectedErrorOfTheDeviceIsToldAndTheDeviceOpenedAgain) {
+  session().setDemand({true, false});
+  runFor(milliseconds(1000));
+  world_.read_error = "vector::reserve";
+  runFor(milliseconds(100));
+  EXPECT_EQ(session().status().state, CameraState::kWaiting);
+  EXPECT_EQ(session().status().fault, DeviceFault::kUnexpected);
+  EXPECT_TRUE(heard("vector::reserve"));
+  EXPECT_EQ(world_.open_devices, 0);
+  world_.read_error.clear();
+  runFor(milliseconds(2000));
+  EXPECT_EQ(session().status().state, CameraState::kStreaming);
+  EXPECT_EQ(session().status().reconnections, 1);
+}
 
 TEST_F(CameraSessionTest, NoStreamWithoutDemand) {
   runFor(milliseconds(3000));

@@ -4,6 +4,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,6 +17,7 @@ namespace mivo {
 /// What a FakeCamera does, and what was done to it; outlives the devices that are opened.
 struct FakeCameraWorld {
   std::optional<DeviceFault> open_fault;  ///< opening fails with it
+  std::string read_error;                 ///< reading throws it, which is no DeviceError
   bool connected = true;
   std::array<bool, kStreamKinds> silent{};
   bool is_recording = false;
@@ -55,6 +57,9 @@ class FakeCamera : public CameraDevice {
 
   bool read(std::chrono::milliseconds /*timeout*/,
             const std::function<void(const ImageView&)>& callback) override {
+    if (!world_.read_error.empty()) {
+      throw std::runtime_error(world_.read_error);
+    }
     for (int tried = 0; tried < kStreamKinds; ++tried) {
       const auto k = static_cast<std::size_t>(next_);
       next_ = 1 - next_;

@@ -84,7 +84,7 @@ TEST(ClassifyOpenFailureTest, SaysWhatTheSdkMeans) {
 }
 
 TEST(DeviceErrorTest, EveryFaultSaysWhatToDo) {
-  for (int i = 0; i <= static_cast<int>(DeviceFault::kLost); ++i) {
+  for (int i = 0; i <= static_cast<int>(DeviceFault::kUnexpected); ++i) {
     const auto fault = static_cast<DeviceFault>(i);
     EXPECT_STRNE(toString(fault), "unknown") << i;
     EXPECT_GT(std::string(adviceFor(fault)).size(), 20U) << i;

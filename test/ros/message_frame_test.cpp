@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <limits>
-
 #include "ros/camera_conversion.h"
 #include "ros/expect_error.h"
 #include "ros/status_conversion.h"
@@ -62,26 +60,59 @@ TEST(StatusTest, CodesAreThoseOfTheMessageDefinition) {
       {TrackingState::kLost, TrackingStatus::LOST}};
   for (const auto& [state, code] : states) {
     result.state = state;
-    EXPECT_EQ(code, toMessage(result).state);
-    EXPECT_EQ(toString(state), toMessage(result).state_text);
+    EXPECT_EQ(code, toMessage(result, {}).state);
+    EXPECT_EQ(toString(state), toMessage(result, {}).state_text);
   }
   const std::pair<TrackingReason, int> reasons[] = {
       {TrackingReason::kNone, 0},           {TrackingReason::kInvalidFrame, 1},
       {TrackingReason::kTooFewPoints, 2},   {TrackingReason::kNoOverlap, 3},
       {TrackingReason::kOpenDirections, 4}, {TrackingReason::kImplausibleMotion, 5},
-      {TrackingReason::kNotFinite, 6},      {TrackingReason::kNothingInCommon, 7}};
+      {TrackingReason::kNotFinite, 6},      {TrackingReason::kNothingInCommon, 7},
+      {TrackingReason::kStaleStamp, 8}};
   for (const auto& [reason, code] : reasons) {
     result.reason = reason;
-    EXPECT_EQ(code, toMessage(result).reason);
-    EXPECT_EQ(toString(reason), toMessage(result).reason_text);
+    EXPECT_EQ(code, toMessage(result, {}).reason);
+    EXPECT_EQ(toString(reason), toMessage(result, {}).reason_text);
   }
+}
+
+TEST(StatusTest, OpenDirectionsAreTheTrackersInItsOrder) {
+  TrackingResult result;
+  result.reason = TrackingReason::kOpenDirections;
+  result.open_directions = {true, false, false, false, true, false};
+  const TrackingStatus message = toMessage(result, {});
+  for (std::size_t i = 0; i < message.open_directions.size(); ++i) {
+    EXPECT_EQ(result.open_directions[i], message.open_directions[i] != 0) << i;
+  }
+  EXPECT_EQ(describeReason(result), message.reason_text);
+}
+
+TEST(StatusTest, TheWayOfTheFrameIsTold) {
+  FrameAccount account;
+  account.header.frame_id = "optical";
+  account.frames = 1;
+  account.skipped_frames = 2;
+  account.dropped_frames = 3;
+  account.conversion_cpu_ms = 4.0;
+  account.pairing_offset = 5.0;
+  account.latency = 6.0;
+  account.processing_latency = 7.0;
+  const TrackingStatus message = toMessage(TrackingResult(), account);
+  EXPECT_EQ("optical", message.header.frame_id);
+  EXPECT_EQ(1U, message.frames);
+  EXPECT_EQ(2U, message.skipped_frames);
+  EXPECT_EQ(3U, message.dropped_frames);
+  EXPECT_EQ(4.0, message.conversion_cpu_ms);
+  EXPECT_EQ(5.0, message.pairing_offset);
+  EXPECT_EQ(6.0, message.latency);
+  EXPECT_EQ(7.0, message.processing_latency);
 }
 
 TEST(StatusTest, TheShutterIsTold) {
   TrackingResult result;
   result.rolling_shutter_readout = 0.02;
   result.depth_time_offset = -0.01;
-  const TrackingStatus message = toMessage(result);
+  const TrackingStatus message = toMessage(result, {});
   EXPECT_EQ(0.02, message.rolling_shutter_readout);
   EXPECT_EQ(-0.01, message.depth_time_offset);
 }
@@ -93,7 +124,7 @@ TEST(StatusTest, LevelsKeepTheirOrder) {
   result.levels[0].mutual_information = true;
   result.levels[1].level = 3;
   result.levels[1].iterations = 7;
-  const TrackingStatus message = toMessage(result);
+  const TrackingStatus message = toMessage(result, {});
   ASSERT_EQ(2U, message.levels.size());
   EXPECT_EQ(4, message.levels[0].level);
   EXPECT_TRUE(message.levels[0].mutual_information);

@@ -11,7 +11,6 @@
 #include <chrono>
 
 #include "mivo/core/se3.h"
-#include "programs/plane_sequence.h"
 #include "ros/camera_conversion.h"
 #include "ros/pose_conversion.h"
 #include "ros/stamp.h"
@@ -157,7 +156,7 @@ void NodeTest::publishClock(int i) {
 void NodeTest::publish(int i, int at, double depth_delay) {
   cv::Mat image;
   cv::Mat depth;
-  renderPlane(planePose(i), image, depth);
+  renderPlane(filmed_from_(i), image, depth);
   std_msgs::Header header;
   header.stamp = stampOf(at);
   header.frame_id = frame("optical");

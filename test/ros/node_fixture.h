@@ -22,6 +22,8 @@
 #include <string>
 #include <vector>
 
+#include "programs/plane_sequence.h"
+
 namespace mivo {
 
 /// The odometry nodelet in the manager of the test, fed with images of a plane that a camera moves
@@ -129,6 +131,8 @@ class NodeTest : public ::testing::Test {
   sensor_msgs::Image next_depth_;
   bool has_depth_ = true;                // the depth image is published
   std::function<void()> spoil_ = [] {};  // called before the two are published
+  // Where frame i is filmed, in the world of the plane.
+  std::function<Eigen::Isometry3d(int)> filmed_from_ = planePose;
 
   std::mutex mutex_;  // guards what follows; locked while a condition is asked
   std::condition_variable changed_;

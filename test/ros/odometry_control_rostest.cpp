@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Services, parameters, the help of another odometry, loading and unloading.
+// Services, parameters, loading and unloading.
 #include <dynamic_reconfigure/Reconfigure.h>
 #include <gtest/gtest.h>
 #include <mivo/SaveTrajectory.h>
 #include <mivo/SetPose.h>
 #include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
-#include <tf2_ros/transform_broadcaster.h>
 
+#include <cmath>
 #include <fstream>
+#include <vector>
 
 #include "mivo/core/parameters.h"
 #include "mivo/core/se3.h"
@@ -19,6 +20,7 @@
 #include "ros/node_parameters.h"
 #include "ros/parameter_server.h"
 #include "ros/pose_conversion.h"
+#include "ros/stamp.h"
 #include "support/temporary_folder.h"
 
 namespace mivo {
@@ -118,6 +120,46 @@ TEST_F(NodeTest, TrajectoryIsSavedAndWrittenAsItGrows) {
   EXPECT_TRUE(call.response.success);
 }
 
+class LostFramesTest : public NodeTest {
+ protected:
+  /// Five frames: nothing to start from in the first, nothing to be seen in the fourth. Returns the
+  /// stamps of the trajectory.
+  std::vector<double> saveFiveFrames() {
+    const TemporaryFolder folder;
+    publishCameraOnBase();
+    load();
+    spoil_ = [this] {
+      const ros::Time stamp = next_colour_.header.stamp;
+      if (stamp == stampOf(0) || stamp == stampOf(3)) blacken();
+    };
+    for (int i = 0; i < 5; ++i) track(i);
+    EXPECT_EQ(TrackingStatus::INITIALISING, statusOf(0).state);
+    EXPECT_EQ(TrackingStatus::LOST, statusOf(3).state);
+    SaveTrajectory call;
+    call.request.path = folder / "trajectory.txt";
+    EXPECT_TRUE(ros::service::call(privateName("save_trajectory"), call));
+    std::vector<double> stamps;
+    for (const StampedPose& pose : readTrajectory(call.request.path)) stamps.push_back(pose.stamp);
+    EXPECT_EQ(stamps.size(), call.response.poses);
+    return stamps;
+  }
+
+  std::vector<double> stampsOf(const std::vector<int>& frames) const {
+    std::vector<double> stamps;
+    for (const int i : frames) stamps.push_back(std::round(toSeconds(stampOf(i)) * 1e6) / 1e6);
+    return stamps;
+  }
+};
+
+TEST_F(LostFramesTest, TrajectoriesDoNotHaveThem) {
+  EXPECT_EQ(stampsOf({1, 2, 4}), saveFiveFrames());
+}
+
+TEST_F(LostFramesTest, TrajectoriesHaveThemWhenAskedFor) {
+  setParameter("write_lost", true);
+  EXPECT_EQ(stampsOf({1, 2, 3, 4}), saveFiveFrames());
+}
+
 TEST_F(NodeTest, AResetIsWholeThoughItsTrajectoryCannotBeWritten) {
   const TemporaryFolder folder;
   publishCameraOnBase();
@@ -207,35 +249,6 @@ TEST_F(NodeTest, ParametersOfTheNodeAreChecked) {
   ASSERT_EQ(1U, unknown.size());
   EXPECT_NE(std::string::npos, unknown[0].find("max_iteration'")) << unknown[0];
   EXPECT_NE(std::string::npos, unknown[0].find("'max_iterations'")) << unknown[0];
-}
-
-TEST_F(NodeTest, AnotherOdometryHelpsAndStaysTheParentOfTheBase) {
-  publishCameraOnBase();
-  const std::string wheels = frame("wheels");
-  setParameter("guess_frame_id", wheels);
-  tf2_ros::TransformBroadcaster broadcaster;
-  Eigen::Isometry3d T_wheels_start = Eigen::Isometry3d::Identity();
-  T_wheels_start.translation() << 5.0, 6.0, 0.0;
-  spoil_ = [&] {
-    geometry_msgs::TransformStamped transform;
-    transform.header.stamp = next_colour_.header.stamp;
-    transform.header.frame_id = wheels;
-    transform.child_frame_id = frame("base_link");
-    transform.transform = toTransform(T_wheels_start);
-    broadcaster.sendTransform(transform);
-  };
-  load();
-  for (int i = 0; i < 4; ++i) track(i);
-  ASSERT_TRUE(waitFor([&] {
-    return hasOdometry(3) && tf_.canTransform(frame("odom"), frame("base_link"), stampOf(3));
-  }));
-  std::string parent;
-  ASSERT_TRUE(tf_._getParent(frame("base_link"), ros::Time(0), parent));
-  EXPECT_EQ(wheels, parent);
-  const Eigen::Isometry3d T =
-      toIsometry(tf_.lookupTransform(frame("odom"), frame("base_link"), stampOf(3)).transform);
-  EXPECT_LT(poseError(3, T), 1e-9);
-  EXPECT_LT(poseError(3, truth(3)), kTolerance);
 }
 
 TEST_F(NodeTest, UnloadingWhileFramesWaitEndsCleanly) {

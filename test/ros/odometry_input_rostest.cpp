@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // What the odometry nodelet does with messages that are broken, late, early, missing or compressed.
 #include <gtest/gtest.h>
+#include <mivo/SaveTrajectory.h>
 #include <rosgraph_msgs/Log.h>
 #include <sensor_msgs/CompressedImage.h>
 
@@ -12,6 +13,7 @@
 #include "ros/image_conversion.h"
 #include "ros/node_fixture.h"
 #include "ros/pose_conversion.h"
+#include "support/temporary_folder.h"
 
 namespace mivo {
 namespace {
@@ -137,16 +139,37 @@ TEST_F(NodeTest, ImagesThatWaitForTheCalibrationAreNotLost) {
   EXPECT_EQ(5U, statusOf(4).frames);
 }
 
-TEST_F(NodeTest, DoubledAndLateStampsAreDroppedAndCounted) {
+TEST_F(NodeTest, DoubledAndLateStampsAreRefusedAndCountedByReason) {
   publishCameraOnBase();
   load();
   for (int i = 0; i < 5; ++i) track(i);
+  ASSERT_TRUE(waitFor([&] { return odometries_.size() == 5U; }));
+  forget();
   for (const int late : {4, 2, 3}) publish(late, late);
+  const std::string reason = "stamp is not newer than that of the frame before";
+  ASSERT_TRUE(waitFor([&] { return hasStatus(4); }));  // the other two may not even be paired
+  const TrackingStatus refused = statusOf(4);
+  EXPECT_EQ(TrackingStatus::TRACKING, refused.state);  // of the frame before
+  EXPECT_EQ(TrackingStatus::REASON_STALE_STAMP, refused.reason);
+  EXPECT_EQ(reason, refused.reason_text);
+  EXPECT_EQ(5U, refused.frames);
   publish(5);
   ASSERT_TRUE(waitFor([&] { return isDone(5); }));
   EXPECT_EQ(6U, statusOf(5).frames);
-  EXPECT_GE(statusOf(5).skipped_frames, 1U);
+  EXPECT_EQ(TrackingStatus::REASON_NONE, statusOf(5).reason);
+  EXPECT_TRUE(holds([&] { return odometries_.size() == 1U; }));
   EXPECT_LT(poseError(5, truth(5)), kTolerance);
+  const std::string skipped = std::to_string(statusOf(5).skipped_frames);
+  EXPECT_TRUE(waitFor([&] {
+    const auto input = latestDiagnosis("input");
+    return valueOf(input, "skipped: " + reason) == skipped &&
+           valueOf(input, "skipped frames") == skipped;
+  }));
+  SaveTrajectory call;
+  const TemporaryFolder folder;
+  call.request.path = folder / "all.txt";
+  ASSERT_TRUE(ros::service::call(privateName("save_trajectory"), call));
+  EXPECT_EQ(6U, call.response.poses);
 }
 
 TEST_F(NodeTest, AJumpBackOfTimeGoesOnAtTheLastPose) {

@@ -88,6 +88,71 @@ TEST_F(TrackingSessionTest, TracksFromAGivenStart) {
   EXPECT_LT(distance(planePose(1), result.T_odom_camera), kTolerance);
 }
 
+TEST_F(TrackingSessionTest, TheLastMeasuredPoseStandsWhileTheCameraIsLost) {
+  EXPECT_FALSE(session_.lastMeasured());
+  for (int i = 0; i <= 3; ++i) track(i);
+  ASSERT_TRUE(session_.lastMeasured());
+  EXPECT_EQ(planeStamp(3), session_.lastMeasured()->stamp);
+  EXPECT_LT(distance(planePose(3), session_.lastMeasured()->pose), kTolerance);
+  for (int i = 4; i <= 6; ++i) {
+    Frame dark = makeFrame(i);
+    dark.image = cv::Scalar(0);
+    dark.depth = cv::Scalar(0);
+    EXPECT_EQ(TrackingState::kLost, session_.process(dark, nullptr).state);
+    EXPECT_EQ(planeStamp(3), session_.lastMeasured()->stamp);
+  }
+  track(7);
+  EXPECT_EQ(planeStamp(7), session_.lastMeasured()->stamp);
+}
+
+TEST_F(TrackingSessionTest, NothingIsMeasuredAfterAStartAtAnotherPlaceOrTime) {
+  track(0);
+  session_.restart();
+  EXPECT_FALSE(session_.lastMeasured());
+  session_.process(makeFrame(1, 3.0), nullptr);
+  EXPECT_EQ(3.0, session_.lastMeasured()->stamp);
+  session_.reset();
+  EXPECT_FALSE(session_.lastMeasured());
+}
+
+TEST_F(TrackingSessionTest, AnotherCalibrationStartsAtTheGuessWhenThereIsOne) {
+  for (int i = 0; i <= 3; ++i) track(i);
+  Camera other = planeCamera().camera;
+  other.fx += 1.0;
+  session_.setCamera(other);
+  ASSERT_TRUE(session_.lastMeasured());  // time goes on
+  EXPECT_EQ(planeStamp(3), session_.lastMeasured()->stamp);
+  const Eigen::Isometry3d start = planePose(20);
+  EXPECT_LT(distance(start, session_.process(makeFrame(20), &start).T_odom_camera), 1e-9);
+  EXPECT_EQ(1, session_.result().segment);
+}
+
+TEST_F(TrackingSessionTest, ARefusedFrameChangesNothing) {
+  for (int i = 0; i <= 3; ++i) track(i);
+  const TrackingResult before = session_.result();
+  const Matrix6 twist_covariance = session_.twistCovariance();
+  const TrackingResult& refused = session_.process(makeFrame(2), nullptr);
+  EXPECT_TRUE(refused.isRefused());
+  EXPECT_EQ(before.state, refused.state);
+  EXPECT_EQ(before.segment, refused.segment);
+  EXPECT_EQ(before.T_odom_camera.matrix(), refused.T_odom_camera.matrix());
+  EXPECT_EQ(planeStamp(3), session_.lastMeasured()->stamp);
+  EXPECT_EQ(twist_covariance, session_.twistCovariance());
+  track(4);  // follows frame 3: the velocity is known
+  EXPECT_LT(session_.twistCovariance().diagonal().maxCoeff(), 1.0);
+}
+
+TEST_F(TrackingSessionTest, ARefusedFrameBeginsNoSegment) {
+  track(0);
+  Frame broken = makeFrame(1);
+  broken.depth = cv::Mat(3, 3, CV_32FC1, cv::Scalar(1.0));
+  for (int i = 0; i < 2; ++i) {
+    session_.reset();
+    EXPECT_TRUE(session_.process(broken, nullptr).isRefused());
+  }
+  EXPECT_EQ(1, track(1).segment);
+}
+
 TEST_F(TrackingSessionTest, VelocityIsUnknownAtFirstAndMeasuredThen) {
   track(0);
   EXPECT_EQ(Matrix6(Matrix6::Identity() * kUnknownVariance), session_.twistCovariance());

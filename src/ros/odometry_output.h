@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <ros/node_handle.h>
+#include <std_msgs/Header.h>
+
+#include <Eigen/Geometry>
+#include <optional>
+
+#include "ros/display_publisher.h"
+#include "ros/node_parameters.h"
+#include "ros/odometry_publisher.h"
+#include "session/tracking_session.h"
+
+namespace mivo {
+
+/// What goes out of poses: odom, tf, path and what is there to be looked at. All of it is seen from
+/// the odometry frame, which is where the base was at the first frame, unless it was moved.
+class OdometryOutput {
+ public:
+  OdometryOutput(const ros::NodeHandle& private_node, const NodeParameters& parameters);
+
+  /// Publishes the pose of the session's last frame, if it is one.
+  /// @param T_base_camera  at the frame
+  /// @param T_guess_base   see OdometryPublisher::publish
+  void publishOdometry(const TrackingSession& session, const ros::Time& stamp,
+                       const Eigen::Isometry3d& T_base_camera,
+                       const std::optional<Eigen::Isometry3d>& T_guess_base);
+
+  /// After publishOdometry. @param header of the colour image
+  void publishDisplay(const TrackingSession& session, const std_msgs::Header& header);
+
+  void publishStatus(const TrackingStatus& status) { publisher_.publish(status); }
+
+  /// Moves the odometry frame so that the base is at the given pose. Throws Error before the first
+  /// pose.
+  void setPose(const Eigen::Isometry3d& T_odom_base, const TrackingSession& session);
+
+  /// The odometry frame is where the base is at the next frame.
+  void reset();
+
+ private:
+  NodeParameters parameters_;
+  OdometryPublisher publisher_;
+  DisplayPublisher display_;
+  std::optional<Eigen::Isometry3d> T_odom_world_;  // known once tf has said where the camera sits
+  Eigen::Isometry3d T_base_camera_ = Eigen::Isometry3d::Identity();  // of the last frame
+};
+
+}  // namespace mivo
