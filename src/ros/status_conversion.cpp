@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/status_conversion.h"
 
-#include <algorithm>
-
 namespace mivo {
 namespace {
 
@@ -67,8 +65,9 @@ TrackingStatus toMessage(const TrackingResult& result) {
   message.state_text = toString(result.state);
   message.reason = code(result.reason);
   message.reason_text = describeReason(result);
-  std::copy(result.open_directions.begin(), result.open_directions.end(),
-            message.open_directions.begin());
+  for (std::size_t i = 0; i < message.open_directions.size(); ++i) {
+    message.open_directions[i] = result.open_directions[i] ? 1 : 0;
+  }
   message.keyframe = result.keyframe;
   message.new_keyframe = result.new_keyframe;
   message.keyframes = result.keyframes;
