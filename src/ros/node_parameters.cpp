@@ -32,6 +32,7 @@ void visit(NodeParameters& p, Visitor&& visitor) {
   visitor("trajectory_folder", p.trajectory_folder);
   visitor("trajectory_file", p.trajectory_file);
   visitor("trajectory_force", p.trajectory_force);
+  visitor("required", p.required);
 }
 
 /// tf2 knows frames without a leading slash only.

@@ -35,6 +35,8 @@ struct NodeParameters {
   std::string trajectory_folder = ".";  ///< for relative paths of trajectories
   std::string trajectory_file;          ///< written pose by pose while it runs; empty: none
   bool trajectory_force = false;        ///< an existing trajectory_file is replaced
+
+  bool required = false;  ///< a nodelet that cannot start fails to load; otherwise it stays idle
 };
 
 /// Throws Error, naming the parameter, for a wrong type, a value out of range, or frames that
