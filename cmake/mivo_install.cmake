@@ -52,7 +52,6 @@ endfunction()
 
 # At the end, when all targets are there.
 function(mivo_install_package)
-  install(DIRECTORY include/mivo DESTINATION include)
   install(EXPORT mivoTargets NAMESPACE mivo:: DESTINATION ${MIVO_CMAKE_DESTINATION})
   if(MIVO_WITH_ROS)  # catkin writes mivoConfig.cmake, which includes mivo-extras.cmake
     export(EXPORT mivoTargets NAMESPACE mivo::
@@ -60,6 +59,7 @@ function(mivo_install_package)
     mivo_install_environment()
     return()
   endif()
+  install(DIRECTORY include/mivo DESTINATION include)
   configure_file(cmake/mivo-extras.cmake.in mivoConfig.cmake @ONLY)
   write_basic_package_version_file(mivoConfigVersion.cmake COMPATIBILITY SameMinorVersion)
   install(FILES ${PROJECT_BINARY_DIR}/mivoConfig.cmake ${PROJECT_BINARY_DIR}/mivoConfigVersion.cmake

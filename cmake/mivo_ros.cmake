@@ -47,6 +47,8 @@ if(NOT EIGEN3_INCLUDE_DIRS)
   get_target_property(EIGEN3_INCLUDE_DIRS Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
 endif()
 
+# The libraries are exported as targets, by mivo-extras.cmake.
+#catkin_lint: ignore_once missing_export_lib
 catkin_package(
   CFG_EXTRAS mivo-extras.cmake
   INCLUDE_DIRS include
@@ -97,5 +99,6 @@ function(mivo_ros_library name)
 endfunction()
 
 install(FILES nodelet_plugins.xml DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
+install(DIRECTORY include/mivo DESTINATION ${CATKIN_GLOBAL_INCLUDE_DESTINATION})
 install(DIRECTORY launch rviz DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION} USE_SOURCE_PERMISSIONS)
 install(DIRECTORY config DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION} FILES_MATCHING PATTERN "*.yaml")
