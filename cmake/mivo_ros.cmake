@@ -48,7 +48,6 @@ if(NOT EIGEN3_INCLUDE_DIRS)
 endif()
 
 # The libraries are exported as targets, by mivo-extras.cmake.
-#catkin_lint: ignore_once missing_export_lib
 catkin_package(
   CFG_EXTRAS mivo-extras.cmake
   INCLUDE_DIRS include

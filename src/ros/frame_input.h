@@ -6,6 +6,7 @@
 #include <message_filters/synchronizer.h>
 #include <ros/node_handle.h>
 
+#include <cstdint>
 #include <deque>
 #include <functional>
 #include <memory>

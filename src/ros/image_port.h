@@ -5,6 +5,7 @@
 #include <message_filters/simple_filter.h>
 #include <ros/node_handle.h>
 
+#include <cstdint>
 #include <functional>
 #include <string>
 
