@@ -6,7 +6,6 @@
 #include <message_filters/synchronizer.h>
 #include <ros/node_handle.h>
 
-#include <cstdint>
 #include <deque>
 #include <functional>
 #include <memory>

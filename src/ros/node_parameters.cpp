@@ -20,6 +20,7 @@ void visit(NodeParameters& p, Visitor&& visitor) {
   visitor("two_d_mode", p.two_d_mode);
   visitor("publish_when_lost", p.publish_when_lost);
   visitor("guess_frame_id", p.guess_frame_id);
+  visitor("required", p.required);
   visitor("tf_timeout", p.tf_timeout, 0.0, kMaxTolerance);
   visitor("rgb_transport", p.rgb_transport);
   visitor("depth_transport", p.depth_transport);
@@ -32,7 +33,6 @@ void visit(NodeParameters& p, Visitor&& visitor) {
   visitor("trajectory_folder", p.trajectory_folder);
   visitor("trajectory_file", p.trajectory_file);
   visitor("trajectory_force", p.trajectory_force);
-  visitor("required", p.required);
 }
 
 /// tf2 knows frames without a leading slash only.

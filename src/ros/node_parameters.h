@@ -22,6 +22,8 @@ struct NodeParameters {
       guess_frame_id;  ///< frame of another odometry that says where the base went; empty: none
   double tf_timeout = 0.05;  ///< s, to wait for a transform of the guess
 
+  bool required = false;  ///< a nodelet that cannot start fails to load; otherwise it stays idle
+
   std::string rgb_transport = "raw";    ///< raw, compressed, or any that image_transport knows
   std::string depth_transport = "raw";  ///< raw, compressed, compressedDepth, or any other
   int queue_size = 10;                  ///< messages that wait for their partner, per input
@@ -35,8 +37,6 @@ struct NodeParameters {
   std::string trajectory_folder = ".";  ///< for relative paths of trajectories
   std::string trajectory_file;          ///< written pose by pose while it runs; empty: none
   bool trajectory_force = false;        ///< an existing trajectory_file is replaced
-
-  bool required = false;  ///< a nodelet that cannot start fails to load; otherwise it stays idle
 };
 
 /// Throws Error, naming the parameter, for a wrong type, a value out of range, or frames that
