@@ -1,6 +1,8 @@
 # Compiler settings shared by all targets, and the functions that declare mivo's targets.
 
-set(CMAKE_CXX_STANDARD 17)
+if(NOT CMAKE_CXX_STANDARD)
+  set(CMAKE_CXX_STANDARD 17)
+endif()
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
@@ -15,39 +17,36 @@ if(MIVO_WARNINGS_AS_ERRORS)
   add_compile_options(-Werror)
 endif()
 
-include(GNUInstallDirs)
-
 # mivo_library(NAME sources...): one library of one folder.
 function(mivo_library name)
   add_library(${name} ${ARGN})
   target_include_directories(${name} PUBLIC
     $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/include> $<BUILD_INTERFACE:${PROJECT_SOURCE_DIR}/src>
     $<INSTALL_INTERFACE:include>)
-  install(TARGETS ${name}
-    ARCHIVE DESTINATION ${MIVO_LIB_DESTINATION}
-    LIBRARY DESTINATION ${MIVO_LIB_DESTINATION})
+  target_precompile_headers(${name} REUSE_FROM mivo_precompiled_library)
+  mivo_install_library(${name})
 endfunction()
 
 # mivo_program(NAME sources...): build/bin/NAME, installed where rosrun finds it.
 function(mivo_program name)
   add_executable(${name} ${ARGN})
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
-  install(TARGETS ${name} RUNTIME DESTINATION ${MIVO_LIB_DESTINATION}/mivo)
+  install(TARGETS ${name} RUNTIME DESTINATION lib/mivo)
 endfunction()
 
-# catkin's convention: libraries in lib, programs in lib/<package>.
-set(MIVO_LIB_DESTINATION lib)
+# Tests are compiled more often than they run; what they test is optimised.
+set(MIVO_TEST_OPTIONS -O1)
 
 # mivo_test(NAME LIBRARIES libraries... SOURCES sources...): a GoogleTest program run by ctest, which
 # lists it as skipped when a test was and none has failed (test/support/test_main.cpp). Tests that need
 # what not every machine has are programs of their own, so that the others are not listed so with them.
 function(mivo_test name)
   cmake_parse_arguments(ARG "" "" "LIBRARIES;SOURCES" ${ARGN})
-  add_executable(${name} ${ARG_SOURCES} ${PROJECT_SOURCE_DIR}/test/support/test_main.cpp)
+  add_executable(${name} ${ARG_SOURCES})
   target_include_directories(${name} PRIVATE ${PROJECT_SOURCE_DIR}/test)
-  # Tests are compiled more often than they run; what they test is optimised.
-  target_compile_options(${name} PRIVATE -O1)
-  target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES} GTest::GTest Threads::Threads)
+  target_compile_options(${name} PRIVATE ${MIVO_TEST_OPTIONS})
+  target_precompile_headers(${name} REUSE_FROM mivo_precompiled_test)
+  target_link_libraries(${name} PRIVATE ${ARG_LIBRARIES} mivo_test_main GTest::GTest Threads::Threads)
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/test_bin)
   add_test(NAME ${name} COMMAND ${name})
   set_tests_properties(${name} PROPERTIES SKIP_RETURN_CODE 77)

@@ -1,12 +1,11 @@
 # ROS: catkin, messages, services, dynamic_reconfigure, and what is installed for roslaunch.
 # Included at the top of the tree, before any target, as catkin wants it.
 
-# ROS on Debian lives in the system's Python; another one first on the PATH would not find it.
-foreach(variable PYTHON_EXECUTABLE Python3_EXECUTABLE)
-  if(NOT DEFINED ${variable} AND EXISTS /usr/bin/python3)
-    set(${variable} /usr/bin/python3 CACHE FILEPATH "Python with the ROS packages")
-  endif()
-endforeach()
+# catkin writes setup.bash and its like where the prefix was when mivo was configured; they are written by
+# mivo_install.cmake where the rest goes.
+if(CMAKE_SOURCE_DIR STREQUAL PROJECT_SOURCE_DIR)
+  set(CATKIN_INSTALL_INTO_PREFIX_ROOT FALSE)
+endif()
 
 find_package(catkin REQUIRED COMPONENTS
   camera_info_manager
@@ -42,9 +41,15 @@ add_custom_command(OUTPUT ${CATKIN_DEVEL_PREFIX}/${CATKIN_PACKAGE_INCLUDE_DESTIN
   DEPENDS ${PROJECT_SOURCE_DIR}/include/mivo/core/parameters.def
     ${PROJECT_SOURCE_DIR}/config/parameter_table.py APPEND)
 
+# catkin asks for variables; Eigen 5 gives its target alone.
+if(NOT EIGEN3_INCLUDE_DIRS)
+  get_target_property(EIGEN3_INCLUDE_DIRS Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
+endif()
+
+# The libraries are exported as targets, by mivo-extras.cmake.
 catkin_package(
+  CFG_EXTRAS mivo-extras.cmake
   INCLUDE_DIRS include
-  LIBRARIES mivo_core mivo_io mivo_evaluation mivo_ros
   CATKIN_DEPENDS
     camera_info_manager
     cv_bridge
@@ -66,25 +71,31 @@ catkin_package(
     visualization_msgs
   DEPENDS EIGEN3 OpenCV)
 
-# An installed prefix works without LD_LIBRARY_PATH: programs are in lib/mivo, libraries in lib.
-set(CMAKE_INSTALL_RPATH "$ORIGIN:$ORIGIN/..")
-
-# rosrun and roslaunch look into the devel space, programs are built into bin.
-file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/bin ${CATKIN_DEVEL_PREFIX}/lib)
+# rosrun and roslaunch look into the devel space, where the programs lie; build/bin is a link to them.
+file(MAKE_DIRECTORY ${CATKIN_DEVEL_PREFIX}/lib)
 if(NOT EXISTS ${CATKIN_DEVEL_PREFIX}/lib/mivo)
-  file(CREATE_LINK ${PROJECT_BINARY_DIR}/bin ${CATKIN_DEVEL_PREFIX}/lib/mivo SYMBOLIC)
+  file(MAKE_DIRECTORY ${CATKIN_DEVEL_PREFIX}/lib/mivo)
+endif()
+if(NOT EXISTS ${PROJECT_BINARY_DIR}/bin)
+  file(CREATE_LINK ${CATKIN_DEVEL_PREFIX}/lib/mivo ${PROJECT_BINARY_DIR}/bin SYMBOLIC)
+endif()
+
+# rosrun passes over what lies below PACKAGE/build/, as the devel space of scripts/build does. It compares
+# text: with the package at PACKAGE/. nothing is passed over.
+if(CMAKE_SOURCE_DIR STREQUAL PROJECT_SOURCE_DIR AND CATKIN_DEVEL_PREFIX MATCHES "^${PROJECT_SOURCE_DIR}/")
+  file(WRITE ${CATKIN_DEVEL_PREFIX}/.catkin "${PROJECT_SOURCE_DIR}/.")
 endif()
 
 # mivo_ros_library(NAME sources...): a library of mivo that uses ROS and mivo's messages.
 function(mivo_ros_library name)
   mivo_library(${name} ${ARGN})
+  target_precompile_headers(${name} REUSE_FROM mivo_precompiled_ros)
   target_include_directories(${name} SYSTEM PUBLIC ${catkin_INCLUDE_DIRS})
   target_link_libraries(${name} PUBLIC ${catkin_LIBRARIES})
   add_dependencies(${name} ${${PROJECT_NAME}_EXPORTED_TARGETS})
 endfunction()
 
 install(FILES nodelet_plugins.xml DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
-install(DIRECTORY launch rviz DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})
-install(DIRECTORY config DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION} FILES_MATCHING PATTERN "*.yaml")
 install(DIRECTORY include/mivo DESTINATION ${CATKIN_GLOBAL_INCLUDE_DESTINATION})
-install(DIRECTORY scripts DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION} USE_SOURCE_PERMISSIONS)
+install(DIRECTORY launch rviz DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION} USE_SOURCE_PERMISSIONS)
+install(DIRECTORY config DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION} FILES_MATCHING PATTERN "*.yaml")

@@ -6,6 +6,7 @@
 #include <sensor_msgs/Image.h>
 
 #include <atomic>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <mutex>

@@ -4,6 +4,7 @@
 #include <image_transport/subscriber.h>
 #include <ros/node_handle.h>
 
+#include <cstdint>
 #include <functional>
 #include <string>
 

@@ -20,6 +20,7 @@ void visit(NodeParameters& p, Visitor&& visitor) {
   visitor("two_d_mode", p.two_d_mode);
   visitor("publish_when_lost", p.publish_when_lost);
   visitor("guess_frame_id", p.guess_frame_id);
+  visitor("required", p.required);
   visitor("tf_timeout", p.tf_timeout, 0.0, kMaxTolerance);
   visitor("rgb_transport", p.rgb_transport);
   visitor("depth_transport", p.depth_transport);

@@ -23,6 +23,8 @@ struct NodeParameters {
       guess_frame_id;  ///< frame of another odometry that says where the base went; empty: none
   double tf_timeout = 0.05;  ///< s, to wait for a transform of the guess
 
+  bool required = false;  ///< a nodelet that cannot start fails to load; otherwise it stays idle
+
   std::string rgb_transport = "raw";    ///< raw, compressed, or any that image_transport knows
   std::string depth_transport = "raw";  ///< raw, compressed, compressedDepth, or any other
   int queue_size = 10;                  ///< messages that wait for their partner, per input

@@ -4,6 +4,7 @@
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <mivo/TrackingStatus.h>
 
+#include <cstdint>
 #include <deque>
 #include <mutex>
 #include <string>

@@ -5,6 +5,7 @@
 #include <ros/spinner.h>
 
 #include <atomic>
+#include <cstdint>
 #include <mutex>
 #include <optional>
 #include <string>

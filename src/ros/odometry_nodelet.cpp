@@ -11,6 +11,7 @@ namespace mivo {
 
 /// The odometry in a nodelet manager, or alone (odometry_node). With parameters that cannot be used
 /// it stays idle and says why, in the log and on /diagnostics; the manager and its others go on.
+/// With `required` it fails to load.
 class OdometryNodelet : public nodelet::Nodelet {
  public:
   ~OdometryNodelet() override {
@@ -26,6 +27,10 @@ class OdometryNodelet : public nodelet::Nodelet {
       node_ =
           std::make_unique<OdometryNode>(getNodeHandle(), getPrivateNodeHandle(), *diagnostics_);
     } catch (const std::exception& error) {  // whatever it is: the manager goes on
+      if (getPrivateNodeHandle().param("required", false)) {
+        NODELET_ERROR_STREAM("cannot start: " << error.what());
+        throw;  // the manager refuses to load it
+      }
       NODELET_ERROR_STREAM("idle: " << error.what());
       diagnostics_->setFault(error.what());
       fault_timer_ = getNodeHandle().createWallTimer(

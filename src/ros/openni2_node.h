@@ -7,6 +7,7 @@
 #include <tf2_ros/static_transform_broadcaster.h>
 
 #include <boost/thread/recursive_mutex.hpp>
+#include <cstdint>
 #include <memory>
 #include <mutex>
 #include <optional>

@@ -6,8 +6,14 @@
 #include <ros/this_node.h>
 
 #include <iostream>
+#include <string>
 
 int main(int argc, char** argv) {
+  if (argc == 2 && std::string(argv[1]) == "--help") {  // ros::init would wait for a master
+    std::cout << "Usage: rosrun mivo openni2_node [_PARAMETER:=VALUE...] [TOPIC:=OTHER...]\n"
+                 "Topics, services and parameters: doc/xtion.md\n";
+    return 0;
+  }
   ros::init(argc, argv, "camera");
   nodelet::Loader loader;
   const nodelet::M_string remappings(ros::names::getRemappings());

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "synthetic/ray_caster.h"
 
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
 #include <embree3/rtcore.h>
+#endif
 
 #include <algorithm>
 #include <limits>
@@ -81,12 +85,39 @@ void addPatch(RTCDevice device, RTCScene scene, const Patch& patch, const Grid& 
   check(device);
 }
 
+// What a query is told besides its rays: that they go about the same way.
+#if RTC_VERSION_MAJOR >= 4
+void intersect(const int* valid, RTCScene scene, RTCRayHit8& rays) {
+  RTCIntersectArguments arguments;
+  rtcInitIntersectArguments(&arguments);
+  arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+  rtcIntersect8(valid, scene, &rays, &arguments);
+}
+
+void findBlocked(const int* valid, RTCScene scene, RTCRay8& rays) {
+  RTCOccludedArguments arguments;
+  rtcInitOccludedArguments(&arguments);
+  arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+  rtcOccluded8(valid, scene, &rays, &arguments);
+}
+#else
 RTCIntersectContext makeContext() {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   return context;
 }
+
+void intersect(const int* valid, RTCScene scene, RTCRayHit8& rays) {
+  RTCIntersectContext context = makeContext();
+  rtcIntersect8(valid, scene, &context, &rays);
+}
+
+void findBlocked(const int* valid, RTCScene scene, RTCRay8& rays) {
+  RTCIntersectContext context = makeContext();
+  rtcOccluded8(valid, scene, &context, &rays);
+}
+#endif
 
 void fillRays(RTCRay8& rays, const RayPacket& packet, float end, int* valid) {
   for (int i = 0; i < kPacketSize; ++i) {
@@ -149,7 +180,6 @@ class RayCaster::Implementation {
   Implementation& operator=(const Implementation&) = delete;
 
   void trace(RayPacket& packet) const {
-    RTCIntersectContext context = makeContext();
     alignas(32) RTCRayHit8 rays;
     alignas(32) int valid[kPacketSize];
     fillRays(rays.ray, packet, std::numeric_limits<float>::infinity(), valid);
@@ -157,7 +187,7 @@ class RayCaster::Implementation {
       rays.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
       rays.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
     }
-    rtcIntersect8(valid, scene_, &context, &rays);
+    intersect(valid, scene_, rays);
     for (int i = 0; i < kPacketSize; ++i) {
       const auto k = static_cast<std::size_t>(i);
       if (i >= packet.count || rays.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) {
@@ -176,11 +206,10 @@ class RayCaster::Implementation {
   }
 
   std::array<bool, kPacketSize> isBlocked(const RayPacket& packet) const {
-    RTCIntersectContext context = makeContext();
     alignas(32) RTCRay8 rays;
     alignas(32) int valid[kPacketSize];
     fillRays(rays, packet, kShadowEnd, valid);
-    rtcOccluded8(valid, scene_, &context, &rays);
+    findBlocked(valid, scene_, rays);
     std::array<bool, kPacketSize> blocked{};
     for (int i = 0; i < packet.count; ++i) {
       blocked[static_cast<std::size_t>(i)] = rays.tfar[i] < 0.0F;  // Embree sets -inf

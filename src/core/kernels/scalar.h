@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstdint>
+
 #include "core/kernels/kernels.h"
 
 // The readable reference of every kernel. The vector kernels finish the last few points of an array
