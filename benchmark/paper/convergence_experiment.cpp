@@ -21,8 +21,9 @@ struct Tally {
 void alignFrom(const Eigen::Isometry3d& start, const mivo::ImagePair& pair,
                const mivo::Camera& camera, const mivo::Parameters& parameters, Tally& tally) {
   const double begin = mivo::threadMilliseconds();
-  const mivo::Alignment alignment =
-      mivo::align({pair.keyframe, pair.live, camera, start, start}, parameters);
+  mivo::AlignmentTask task{pair.keyframe, pair.live, camera};
+  task.T_live_ref = task.motion.T_previous_ref = start;
+  const mivo::Alignment alignment = mivo::align(task, parameters);
   tally.milliseconds += mivo::threadMilliseconds() - begin;
   for (int l = 0; l < alignment.num_levels; ++l) {
     tally.iterations += alignment.levels[static_cast<std::size_t>(l)].iterations;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/alignment/pose_covariance.h"
 #include "support/random_pose.h"
 #include "support/scene.h"
 
@@ -24,7 +25,7 @@ Parameters paperParameters(Method method) {
 }
 
 /// Two frames of a room, half a degree and a few centimetres apart.
-class TrackerTest : public ::testing::Test {
+class AlignTest : public ::testing::Test {
  protected:
   Alignment run(const Parameters& parameters, const Eigen::Isometry3d& T_live_ref_start,
                 bool backwards = false) const {
@@ -36,8 +37,16 @@ class TrackerTest : public ::testing::Test {
     live.build(live_frame, parameters);
     Keyframe keyframe;
     keyframe.build(reference, camera_, Vector6::Zero(), {}, parameters);
-    return align({keyframe, live, camera_, T_live_ref_start, T_live_ref_start, 1.0, {}},
-                 parameters);
+    return align(taskFrom(keyframe, live, T_live_ref_start), parameters);
+  }
+
+  /// A camera that stands still before and after.
+  AlignmentTask taskFrom(const Keyframe& keyframe, const FramePyramid& live,
+                         const Eigen::Isometry3d& T_live_ref_start) const {
+    AlignmentTask task{keyframe, live, camera_};
+    task.T_live_ref = T_live_ref_start;
+    task.motion.T_previous_ref = T_live_ref_start;
+    return task;
   }
 
   /// Translation in m and rotation in rad between a pose and the true one.
@@ -74,7 +83,7 @@ double rotationTolerance(Method method) {
   return method == Method::kMi ? 0.003 : 0.0015;
 }
 
-TEST_F(TrackerTest, KnownMotionIsRecoveredFromDisturbedStarts) {
+TEST_F(AlignTest, KnownMotionIsRecoveredFromDisturbedStarts) {
   struct Disturbance {
     double translation;
     double rotation;
@@ -100,7 +109,7 @@ TEST_F(TrackerTest, KnownMotionIsRecoveredFromDisturbedStarts) {
   }
 }
 
-TEST_F(TrackerTest, TheInverseMotionIsRecoveredToo) {
+TEST_F(AlignTest, TheInverseMotionIsRecoveredToo) {
   for (const Method method : kMethods) {
     SCOPED_TRACE(static_cast<int>(method));
     const Alignment alignment = run(paperParameters(method), Eigen::Isometry3d::Identity(), true);
@@ -111,7 +120,7 @@ TEST_F(TrackerTest, TheInverseMotionIsRecoveredToo) {
 
 // Mutual information of the windows is stationary at self-alignment only on average over the
 // points.
-TEST_F(TrackerTest, AFrameAlignedWithItselfDoesNotMove) {
+TEST_F(AlignTest, AFrameAlignedWithItselfDoesNotMove) {
   live_ = reference_;
   for (const Method method : kMethods) {
     SCOPED_TRACE(static_cast<int>(method));
@@ -121,7 +130,7 @@ TEST_F(TrackerTest, AFrameAlignedWithItselfDoesNotMove) {
   }
 }
 
-TEST_F(TrackerTest, LevelsUseTheCostThatTheMethodSays) {
+TEST_F(AlignTest, LevelsUseTheCostThatTheMethodSays) {
   Parameters parameters = paperParameters(Method::kHybrid);
   parameters.alignment.switch_level = 2;
   const Alignment alignment = run(parameters, Eigen::Isometry3d::Identity());
@@ -143,7 +152,7 @@ TEST_F(TrackerTest, LevelsUseTheCostThatTheMethodSays) {
   EXPECT_EQ(run(paperParameters(Method::kMi), truth_).residual_scale, 0.0);
 }
 
-TEST_F(TrackerTest, ALevelWithTooFewPointsIsPassedOver) {
+TEST_F(AlignTest, ALevelWithTooFewPointsIsPassedOver) {
   for (const Method method : kMethods) {
     SCOPED_TRACE(static_cast<int>(method));
     Parameters parameters = paperParameters(method);
@@ -155,7 +164,7 @@ TEST_F(TrackerTest, ALevelWithTooFewPointsIsPassedOver) {
   }
 }
 
-TEST_F(TrackerTest, AnotherLightIsNoMatterToMutualInformationButToSsd) {
+TEST_F(AlignTest, AnotherLightIsNoMatterToMutualInformationButToSsd) {
   Light bright;
   bright.gain = 0.5;
   bright.offset = 0.35;
@@ -166,7 +175,7 @@ TEST_F(TrackerTest, AnotherLightIsNoMatterToMutualInformationButToSsd) {
   EXPECT_GT(errorOf(ssd.T_live_ref, truth_)[0], 0.02);
 }
 
-TEST_F(TrackerTest, ACurvedResponseIsNoMatterToMutualInformation) {
+TEST_F(AlignTest, ACurvedResponseIsNoMatterToMutualInformation) {
   Light dark;
   dark.gain = 0.5;
   dark.gamma = 2.0;
@@ -175,7 +184,7 @@ TEST_F(TrackerTest, ACurvedResponseIsNoMatterToMutualInformation) {
   expectClose(run(paperParameters(Method::kMi), start), truth_, 0.008, 0.004);
 }
 
-TEST_F(TrackerTest, NormalisedContrastStandsLightThatChangesAndMoves) {
+TEST_F(AlignTest, NormalisedContrastStandsLightThatChangesAndMoves) {
   Light lamp;
   lamp.gain = 0.45;
   lamp.spot = 0.35;
@@ -191,12 +200,14 @@ TEST_F(TrackerTest, NormalisedContrastStandsLightThatChangesAndMoves) {
   }
 }
 
-TEST_F(TrackerTest, ANegativeIsAlignedLikeAnyOtherLight) {
+TEST_F(AlignTest, ANegativeIsAlignedWhereThatIsAskedFor) {
   const Frame positive = live_;
   live_.image = 255 - positive.image;
   const Eigen::Isometry3d start = Random(7).pose(0.02, 0.01) * truth_;
   Parameters parameters = paperParameters(Method::kHybrid);
   parameters.alignment.photometric_model = PhotometricModel::kLcn;
+  EXPECT_FALSE(run(parameters, start).sees_image);
+  parameters.ssd.negative_images = true;
   const Alignment alignment = run(parameters, start);
   expectClose(alignment, truth_, translationTolerance(Method::kHybrid),
               rotationTolerance(Method::kHybrid));
@@ -204,7 +215,7 @@ TEST_F(TrackerTest, ANegativeIsAlignedLikeAnyOtherLight) {
 }
 
 // Nothing to see, but depth: into a corner of the room, whose three walls fix all six directions.
-TEST_F(TrackerTest, DepthAloneFindsTheWayInTheDark) {
+TEST_F(AlignTest, DepthAloneFindsTheWayInTheDark) {
   const Eigen::Isometry3d into_corner =
       retract((Vector6() << 0.3, 0.2, -0.3, 0.0, 0.7, 0.0).finished()) *
       retract((Vector6() << 0.0, 0.0, 0.0, -0.5, 0.0, 0.0).finished());
@@ -225,7 +236,7 @@ TEST_F(TrackerTest, DepthAloneFindsTheWayInTheDark) {
 }
 
 // A wall, and nothing to see on it: depth says how far and how inclined, the motion so far where.
-TEST_F(TrackerTest, AlongAWallInTheDarkTheCameraKeepsItsVelocity) {
+TEST_F(AlignTest, AlongAWallInTheDarkTheCameraKeepsItsVelocity) {
   reference_ = testing::render(testing::wallScene(), camera_, Eigen::Isometry3d::Identity());
   const Vector6 motion = (Vector6() << 0.02, -0.01, 0.015, 0.004, -0.006, 0.01).finished();
   const Eigen::Isometry3d truth = retract(motion).inverse();
@@ -241,8 +252,10 @@ TEST_F(TrackerTest, AlongAWallInTheDarkTheCameraKeepsItsVelocity) {
   // Predicted too far along the wall by 1 mm, and towards it by 5 mm.
   const Eigen::Isometry3d predicted =
       retract((Vector6() << 0.001, 0.0, 0.005, 0.0, 0.0, 0.0).finished()) * truth;
-  AlignmentTask task{keyframe, live, camera_, predicted, predicted};
-  task.uncertainty = {0.002, 0.03};
+  AlignmentTask task = taskFrom(keyframe, live, predicted);
+  task.expected.is_known = true;
+  task.expected.T_live_ref = predicted;
+  task.expected.covariance = diagonalCovariance(0.002, 0.03);
   const Alignment alignment = align(task, parameters);
   ASSERT_TRUE(alignment.sees_depth);
   const Eigen::Vector3d error = (alignment.T_live_ref * truth.inverse()).translation();
@@ -255,7 +268,7 @@ TEST_F(TrackerTest, AlongAWallInTheDarkTheCameraKeepsItsVelocity) {
 }
 
 // The keyframe shows nothing, too, but once there was light: still no other place.
-TEST_F(TrackerTest, WhetherAViewIsDarkDependsOnTheLastThatWasNot) {
+TEST_F(AlignTest, WhetherAViewIsDarkDependsOnTheLastThatWasNot) {
   reference_.image.setTo(3);
   live_.image.setTo(3);
   Parameters parameters;
@@ -265,7 +278,7 @@ TEST_F(TrackerTest, WhetherAViewIsDarkDependsOnTheLastThatWasNot) {
   live.build(live_, parameters);
   Keyframe keyframe;
   keyframe.build(reference, camera_, Vector6::Zero(), {}, parameters);
-  AlignmentTask task{keyframe, live, camera_, truth_, truth_};
+  AlignmentTask task = taskFrom(keyframe, live, truth_);
   EXPECT_FALSE(align(task, parameters).isDepthOnly());
   task.last_lit_contrast = 40.0;
   const Alignment dark = align(task, parameters);
@@ -273,7 +286,7 @@ TEST_F(TrackerTest, WhetherAViewIsDarkDependsOnTheLastThatWasNot) {
   EXPECT_TRUE(dark.is_live_dark);
 }
 
-TEST_F(TrackerTest, AnUnrelatedViewIsSeenToBeOne) {
+TEST_F(AlignTest, AnUnrelatedViewIsSeenToBeOne) {
   live_ = testing::render(testing::roomScene(), camera_,
                           T_world_ref_ * retract((Vector6() << 0, 0, 0, 0, 3.0, 0).finished()));
   for (const Method method : kMethods) {
@@ -284,7 +297,7 @@ TEST_F(TrackerTest, AnUnrelatedViewIsSeenToBeOne) {
 
 // The camera turns by 4 degrees a frame and reads its rows during 0.6 of the period. What the rows
 // add to the error of a global shutter goes away when they are allowed for.
-TEST_F(TrackerTest, RowsReadOneAfterTheOtherAreAllowedFor) {
+TEST_F(AlignTest, RowsReadOneAfterTheOtherAreAllowedFor) {
   constexpr double kReadout = 0.6;
   for (const double turn : {0.09, -0.09}) {
     const Vector6 step = (Vector6() << 0.01, 0.0, 0.0, 0.0, turn, 0.0).finished();
@@ -305,8 +318,9 @@ TEST_F(TrackerTest, RowsReadOneAfterTheOtherAreAllowedFor) {
                  parameters);
       Keyframe keyframe;
       keyframe.build(reference, camera_, localCoordinates(truth), {assumed, 0.0}, parameters);
-      const AlignmentTask task{
-          keyframe, live, camera_, truth, Eigen::Isometry3d::Identity(), 1.0, {assumed, 0.0}};
+      AlignmentTask task = taskFrom(keyframe, live, truth);
+      task.motion.T_previous_ref.setIdentity();
+      task.shutter.readout = assumed;
       return localCoordinates(align(task, parameters).T_live_ref * truth.inverse());
     };
     const Vector6 global = errorWith(0.0, 0.0);

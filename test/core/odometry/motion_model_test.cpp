@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "support/random_pose.h"
 
 namespace mivo {
@@ -18,19 +20,29 @@ class MotionModelTest : public ::testing::Test {
   /// Feeds frame n at its stamp, off by `jitter` seconds.
   void feed(int n, double jitter = 0.0) {
     stamp_ = 100.0 + n * kPeriod + jitter;
-    model_.addStamp(stamp_);
-    model_.add(stamp_, pose(n));
+    clock_.add(stamp_);
+    MeasuredPose measured;
+    measured.stamp = stamp_;
+    measured.T_odom_camera = pose(n);
+    model_.add(measured, clock_, motion());
     last_ = pose(n);
   }
 
+  const MotionParameters& motion() const { return parameters_.motion; }
+
+  Eigen::Isometry3d predicted(double stamp, const Eigen::Isometry3d& last) const {
+    return model_.predict(stamp, last, clock_, motion());
+  }
+
   void expectPrediction(double stamp, double n, double tolerance = 1e-9) {
-    const Eigen::Isometry3d predicted = model_.predict(stamp, last_, parameters_);
-    EXPECT_LT((predicted.matrix() - pose(n).matrix()).cwiseAbs().maxCoeff(), tolerance);
+    EXPECT_LT((predicted(stamp, last_).matrix() - pose(n).matrix()).cwiseAbs().maxCoeff(),
+              tolerance);
   }
 
   Vector6 twist_ = (Vector6() << 0.01, -0.02, 0.03, 0.02, 0.01, -0.03).finished();
   Eigen::Isometry3d start_ = testing::Random(3).pose(1.0, 1.0);
   Eigen::Isometry3d last_ = Eigen::Isometry3d::Identity();
+  FrameClock clock_;
   MotionModel model_;
   Parameters parameters_;
   double stamp_ = 0.0;
@@ -38,10 +50,10 @@ class MotionModelTest : public ::testing::Test {
 
 TEST_F(MotionModelTest, WithoutTwoPosesTheLastOneIsThePrediction) {
   expectPrediction(100.0, 0.0, 10.0);
-  EXPECT_EQ(model_.predict(1.0, pose(7), parameters_).matrix(), pose(7).matrix());
+  EXPECT_EQ(predicted(1.0, pose(7)).matrix(), pose(7).matrix());
   feed(0);
-  EXPECT_EQ(model_.predict(101.0, last_, parameters_).matrix(), pose(0).matrix());
-  EXPECT_EQ(model_.velocity(parameters_), Vector6::Zero());
+  EXPECT_EQ(predicted(101.0, last_).matrix(), pose(0).matrix());
+  EXPECT_EQ(model_.velocity(clock_, motion()), Vector6::Zero());
 }
 
 TEST_F(MotionModelTest, AScrewIsContinued) {
@@ -49,17 +61,76 @@ TEST_F(MotionModelTest, AScrewIsContinued) {
   expectPrediction(stamp_ + kPeriod, 4.0);
 }
 
+/// Deviations of the prediction along z and about it.
+Eigen::Vector2d deviations(const Matrix6& covariance) {
+  return {std::sqrt(covariance(2, 2)), std::sqrt(covariance(5, 5))};
+}
+
 TEST_F(MotionModelTest, ThePredictionErrsByWhatTheCameraMayAccelerate) {
-  Parameters parameters = parameters_;
-  parameters.motion.expected_acceleration = 3.0;
-  parameters.motion.expected_turn_acceleration = 20.0;
-  parameters.motion.frame_period = 0.1;
-  EXPECT_EQ(model_.uncertainty(0.1, parameters).translation, 0.0);  // no velocity is known yet
-  model_.add(0.0, Eigen::Isometry3d::Identity());
-  model_.add(0.1, Eigen::Isometry3d::Identity());
-  EXPECT_NEAR(model_.uncertainty(0.2, parameters).translation, 0.03, 1e-12);
-  EXPECT_NEAR(model_.uncertainty(0.2, parameters).rotation, 0.2, 1e-12);
-  EXPECT_NEAR(model_.uncertainty(0.4, parameters).translation, 9.0 * 0.03, 1e-12);
+  twist_.setZero();
+  parameters_.motion.expected_acceleration = 1.0;
+  parameters_.motion.expected_turn_acceleration = 2.0;
+  parameters_.motion.expected_speed = 1e-3;
+  parameters_.motion.expected_turn_rate = 1e-3;
+  for (int n = 0; n < 4; ++n) feed(n);
+  // Not faster than ever expected, however it accelerates.
+  const Eigen::Vector2d slow = deviations(model_.covariance(stamp_ + kPeriod, clock_, motion()));
+  EXPECT_LT(slow[0], 1.1e-3 * kPeriod);
+  parameters_.motion.expected_speed = 1.0;
+  parameters_.motion.expected_turn_rate = 2.0;
+  feed(4);
+  const Eigen::Vector2d fast = deviations(model_.covariance(stamp_ + kPeriod, clock_, motion()));
+  EXPECT_GT(fast[0], 0.9 * kPeriod * kPeriod);
+  EXPECT_NEAR(fast[1], 2.0 * fast[0], 1e-9);
+}
+
+TEST_F(MotionModelTest, UnseenTheCameraDriftsAtTheSpeedThatItMayHave) {
+  for (int n = 0; n < 4; ++n) feed(n);
+  const double speed = 30.0 * twist_.head<3>().norm();
+  double before = 0.0;
+  for (const double seconds : {0.1, 0.5, 1.0, 2.0, 10.0, 600.0}) {
+    const double sigma = deviations(model_.covariance(stamp_ + seconds, clock_, motion()))[0];
+    EXPECT_GT(sigma, before);
+    EXPECT_LT(sigma, 2.0 * std::max(speed, motion().expected_speed) * seconds);
+    before = sigma;
+  }
+  EXPECT_GT(before, 0.9 * std::max(speed, motion().expected_speed) * 600.0);
+}
+
+TEST_F(MotionModelTest, MotionIsContinuedForHalfASecondAndNoLonger) {
+  for (int n = 0; n < 40; ++n) feed(n);
+  expectPrediction(stamp_ + 0.4, 39.0 + 12.0, 1e-6);
+  for (const double gap : {0.5, 2.0, 60.0, 600.0})
+    expectPrediction(stamp_ + gap, 39.0 + 15.0, 1e-6);
+}
+
+TEST_F(MotionModelTest, OpenDirectionsKeepTheirVelocityForHalfASecond) {
+  twist_ << 0.01, 0.0, 0.004, 0.0, 0.0, 0.0;
+  start_.setIdentity();
+  for (int n = 0; n < 10; ++n) feed(n);
+  const double known = model_.covariance(stamp_ + kPeriod, clock_, motion())(0, 0);
+  // From here on nobody sees the motion along x; along z it is seen.
+  Eigen::Isometry3d T = pose(9);
+  for (int n = 10; n < 60; ++n) {
+    const double stamp = 100.0 + n * kPeriod;
+    clock_.add(stamp);
+    MeasuredPose measured;
+    measured.stamp = stamp;
+    T = predicted(stamp, T);
+    T.translation().z() = 0.004 * n;
+    measured.T_odom_camera = T;
+    measured.covariance = model_.covariance(stamp, clock_, motion());
+    measured.has_open_directions = true;
+    measured.open_projector(0, 0) = 1.0;
+    model_.add(measured, clock_, motion());
+  }
+  EXPECT_NEAR(T.translation().x(), 0.01 * (9.0 + 15.0), 0.0101);
+  const Matrix6 covariance = model_.covariance(100.0 + 60 * kPeriod, clock_, motion());
+  EXPECT_GT(covariance(0, 0), 100.0 * known);
+  EXPECT_LT(covariance(2, 2), 4.0 * known);
+  // Seen again, it is known again.
+  feed(60);
+  EXPECT_LT(model_.covariance(stamp_ + kPeriod, clock_, motion())(0, 0), 4.0 * known);
 }
 
 TEST_F(MotionModelTest, JitterOfTheStampsIsNoMotion) {
@@ -86,58 +157,57 @@ TEST_F(MotionModelTest, AFrameIsAtLeastOnePeriodLater) {
 TEST_F(MotionModelTest, TheGivenPeriodWinsOverTheMeasuredOne) {
   parameters_.motion.frame_period = 2.0 * kPeriod;
   for (int n = 0; n < 20; n += 2) feed(n);
-  EXPECT_EQ(model_.period(parameters_), 2.0 * kPeriod);
+  EXPECT_EQ(clock_.period(motion()), 2.0 * kPeriod);
   expectPrediction(stamp_ + 2.0 * kPeriod, 20.0);
 }
 
 TEST_F(MotionModelTest, ThePeriodIsTheMedianOfTheIntervals) {
-  EXPECT_EQ(model_.period(parameters_), 0.0);
+  EXPECT_EQ(clock_.period(motion()), 0.0);
   for (int n : {0, 1, 2, 3, 9, 10, 11}) feed(n);
-  EXPECT_NEAR(model_.period(parameters_), kPeriod, 1e-9);
+  EXPECT_NEAR(clock_.period(motion()), kPeriod, 1e-9);
 }
 
 TEST_F(MotionModelTest, ThePeriodFollowsAChangeOfTheCamera) {
   for (int n = 0; n < 60; ++n) feed(n);
   for (int n = 60; n < 160; n += 2) feed(n);
-  EXPECT_NEAR(model_.period(parameters_), 2.0 * kPeriod, 1e-9);
+  EXPECT_NEAR(clock_.period(motion()), 2.0 * kPeriod, 1e-9);
 }
 
 TEST_F(MotionModelTest, StampsWithoutPosesTellThePeriodToo) {
-  for (int n = 0; n < 10; ++n) model_.addStamp(100.0 + n * kPeriod);
-  EXPECT_NEAR(model_.period(parameters_), kPeriod, 1e-9);
+  for (int n = 0; n < 10; ++n) clock_.add(100.0 + n * kPeriod);
+  EXPECT_NEAR(clock_.period(motion()), kPeriod, 1e-9);
 }
 
 TEST_F(MotionModelTest, VelocityIsPerSecondInTheAxesOfTheCamera) {
   for (int n = 0; n < 5; ++n) feed(n);
-  EXPECT_LT((model_.velocity(parameters_) - 30.0 * twist_).norm(), 1e-6);
+  EXPECT_LT((model_.velocity(clock_, motion()) - 30.0 * twist_).norm(), 1e-6);
   feed(8);
-  EXPECT_LT((model_.velocity(parameters_) - 30.0 * twist_).norm(), 1e-6);
+  EXPECT_LT((model_.velocity(clock_, motion()) - 30.0 * twist_).norm(), 1e-6);
 }
 
 TEST_F(MotionModelTest, ConstantPoseDoesNotMove) {
   parameters_.motion.motion_model = MotionModelKind::kConstantPose;
   for (int n = 0; n < 5; ++n) feed(n);
-  EXPECT_EQ(model_.predict(stamp_ + kPeriod, last_, parameters_).matrix(), last_.matrix());
+  EXPECT_EQ(predicted(stamp_ + kPeriod, last_).matrix(), last_.matrix());
 }
 
 TEST_F(MotionModelTest, StoppingForgetsTheVelocityButNotThePeriod) {
   for (int n = 0; n < 5; ++n) feed(n);
   model_.stop();
-  EXPECT_EQ(model_.predict(stamp_ + kPeriod, last_, parameters_).matrix(), last_.matrix());
-  EXPECT_EQ(model_.velocity(parameters_), Vector6::Zero());
-  EXPECT_NEAR(model_.period(parameters_), kPeriod, 1e-9);
+  EXPECT_EQ(predicted(stamp_ + kPeriod, last_).matrix(), last_.matrix());
+  EXPECT_EQ(model_.velocity(clock_, motion()), Vector6::Zero());
+  EXPECT_NEAR(clock_.period(motion()), kPeriod, 1e-9);
 }
 
 TEST_F(MotionModelTest, AnotherWorldMovesThePredictionWithIt) {
   for (int n = 0; n < 5; ++n) feed(n);
   const Eigen::Isometry3d T_new_old = testing::Random(8).pose(5.0, 2.0);
-  const Vector6 before = model_.velocity(parameters_);
+  const Vector6 before = model_.velocity(clock_, motion());
   const Eigen::Isometry3d expected = T_new_old * pose(5);
   model_.transform(T_new_old);
-  const Eigen::Isometry3d predicted =
-      model_.predict(stamp_ + kPeriod, T_new_old * last_, parameters_);
-  EXPECT_LT((predicted.matrix() - expected.matrix()).cwiseAbs().maxCoeff(), 1e-9);
-  EXPECT_LT((model_.velocity(parameters_) - before).norm(), 1e-9);
+  const Eigen::Isometry3d there = predicted(stamp_ + kPeriod, T_new_old * last_);
+  EXPECT_LT((there.matrix() - expected.matrix()).cwiseAbs().maxCoeff(), 1e-9);
+  EXPECT_LT((model_.velocity(clock_, motion()) - before).norm(), 1e-9);
 }
 
 }  // namespace

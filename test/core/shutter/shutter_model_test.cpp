@@ -16,7 +16,7 @@ using testing::kFramePeriod;
 
 class ShutterModelTest : public ::testing::Test {
  protected:
-  ShutterModelTest() { parameters_.shutter.depth_time_offset_estimation = true; }
+  ShutterModelTest() { parameters_.depth_time_offset_estimation = true; }
 
   /// Keyframes that agree on an offset, periods from the one in use at first.
   void keyframes(double offset, int count = 10) {
@@ -30,13 +30,13 @@ class ShutterModelTest : public ::testing::Test {
   }
   double depthOffset() const { return model_.times(parameters_, kFramePeriod).depth_offset; }
 
-  Parameters parameters_;
+  ShutterParameters parameters_;
   ShutterModel model_;
 };
 
 TEST_F(ShutterModelTest, WhatIsGivenHolds) {
-  parameters_.shutter.rolling_shutter_readout = 0.02;
-  parameters_.shutter.depth_time_offset = -0.01;
+  parameters_.rolling_shutter_readout = 0.02;
+  parameters_.depth_time_offset = -0.01;
   const ShutterTimes times = model_.times(parameters_, kFramePeriod);
   EXPECT_NEAR(times.readout, 0.6, 1e-12);
   EXPECT_NEAR(times.depth_offset, -0.3, 1e-12);
@@ -46,7 +46,7 @@ TEST_F(ShutterModelTest, WhatIsGivenHolds) {
 }
 
 TEST_F(ShutterModelTest, TheEstimateStartsAtWhatIsGiven) {
-  parameters_.shutter.depth_time_offset = -0.01;
+  parameters_.depth_time_offset = -0.01;
   keyframes(0.05);
   EXPECT_NEAR(depthOffset(), -0.3, 1e-12);
   keyframes(0.6, 30);
@@ -56,14 +56,14 @@ TEST_F(ShutterModelTest, TheEstimateStartsAtWhatIsGiven) {
 TEST_F(ShutterModelTest, AnotherOneGivenStartsItAnew) {
   keyframes(0.3);
   ASSERT_GT(depthOffset(), 0.2);
-  parameters_.shutter.depth_time_offset = 0.02;
+  parameters_.depth_time_offset = 0.02;
   model_.endKeyframe(parameters_, kFramePeriod);
   EXPECT_NEAR(depthOffset(), 0.6, 1e-12);
 }
 
 TEST_F(ShutterModelTest, NobodyIsToldWhatWasNotAskedFor) {
   keyframes(0.3);
-  parameters_.shutter.depth_time_offset_estimation = false;
+  parameters_.depth_time_offset_estimation = false;
   EXPECT_EQ(depthOffset(), 0.0);
 }
 
