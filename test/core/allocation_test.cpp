@@ -59,7 +59,7 @@ TEST(AllocationTest, AFrameAllocatesNothingOnceTheBuffersHaveGrown) {
       Parameters parameters;
       parameters.alignment.method = method;
       parameters.alignment.photometric_model = model;
-      parameters.keyframes.keyframe_translation = 0.03;
+      parameters.keyframes.keyframe_translation = 0.02;
       parameters.shutter.depth_time_offset_estimation = true;
       int keyframes = 0;
       EXPECT_EQ(allocationsOfLastWalk(recording, parameters, 16, keyframes), 0U)

@@ -17,8 +17,9 @@ Matrix6 squares(double speed, double turn_rate) {
 /// Integral over the time of the deviation of a velocity of which nothing was known at first, in
 /// units of kMotionHorizon: of sqrt(1 - exp(-2 u)).
 double integralOfGrowth(double u) {
-  return u > 0.0 ? std::acosh(std::exp(std::min(u, 300.0))) - std::sqrt(1.0 - std::exp(-2.0 * u))
-                 : 0.0;
+  constexpr double kLong = 20.0;  // exp(-2 u) is nothing any more
+  if (u > kLong) return u + std::log(2.0) - 1.0;
+  return u > 0.0 ? std::acosh(std::exp(u)) - std::sqrt(1.0 - std::exp(-2.0 * u)) : 0.0;
 }
 
 }  // namespace

@@ -34,8 +34,9 @@ class Odometry::Implementation {
   void setParameters(const Parameters& parameters);
 
   Camera camera_;
-  Parameters parameters_;  // in use
-  Parameters wanted_;      // from the next keyframe on
+  Parameters parameters_;        // in use
+  Parameters wanted_;            // from the next keyframe on
+  bool wants_keyframe_ = false;  // for they differ in what acts with one
   OdometryState state_;
   KeyframeStore keyframes_;
   TrackingResult result_;  // of the last frame
@@ -49,7 +50,6 @@ class Odometry::Implementation {
   Decision trackOrLose(const Prediction& prediction);
   void commit(const Decision& decision, const Frame& frame);
   bool makeKeyframe(const KeyframePlan& plan, const Frame& frame, OdometryState& state);
-  bool wantsNewKeyframe() const { return actWithKeyframe(parameters_, wanted_); }
 
   StageTimes milliseconds_;
   FramePyramid reference_;               // of the newest keyframe, until it is finished
@@ -102,7 +102,10 @@ void Odometry::Implementation::prepare(const Frame& frame) {
   state_.last_stamp = frame.stamp;
   state_.has_stamp = true;
   state_.clock.add(frame.stamp);
-  if (keyframes_.isEmpty()) parameters_ = wanted_;
+  if (keyframes_.isEmpty()) {
+    parameters_ = wanted_;
+    wants_keyframe_ = false;
+  }
   finishKeyframe();
   const double begin = threadMilliseconds();
   live_.build(frame, parameters_);
@@ -126,7 +129,7 @@ Decision Odometry::Implementation::trackOrLose(const Prediction& prediction) {
   milliseconds_.tracking = threadMilliseconds() - begin;
   const TrackingResult result = emptyResult(prediction.stamp);
   if (sight.reason != TrackingReason::kNone) return decideLost(input, prediction, sight, result);
-  return decideTracked(input, prediction, sight, wantsNewKeyframe(), result);
+  return decideTracked(input, prediction, sight, wants_keyframe_, result);
 }
 
 /// The only place where what is known of the past changes.
@@ -147,7 +150,7 @@ void Odometry::Implementation::commit(const Decision& decision, const Frame& fra
 bool Odometry::Implementation::makeKeyframe(const KeyframePlan& plan, const Frame& frame,
                                             OdometryState& state) {
   const double begin = threadMilliseconds();
-  const bool is_change = wantsNewKeyframe();
+  const bool is_change = wants_keyframe_;
   if (is_change) live_.build(frame, wanted_);
   const double period = state.clock.period(wanted_.motion);
   ShutterModel shutter = state.shutter;
@@ -167,9 +170,10 @@ bool Odometry::Implementation::makeKeyframe(const KeyframePlan& plan, const Fram
       std::max(plan.last_lit_contrast, candidate.keyframe.contrastInView());
   candidate.number = state.num_keyframes;
   candidate.segment = plan.segment;
-  if (is_change) keyframes_.clear();  // they were made with other parameters
-  keyframes_.promote(static_cast<std::size_t>(wanted_.loss.recovery_keyframes));
+  // Those that were made with other parameters are of no use any more.
+  keyframes_.promote(is_change ? 0 : static_cast<std::size_t>(wanted_.loss.recovery_keyframes));
   parameters_ = wanted_;
+  wants_keyframe_ = false;
   state.shutter = shutter;
   state.shutter_times = times;
   keyframe_is_unfinished_ = true;
@@ -180,6 +184,7 @@ void Odometry::Implementation::setParameters(const Parameters& parameters) {
   parameters.validate();
   wanted_ = parameters;
   parameters_ = withLiveParameters(parameters_, wanted_);
+  wants_keyframe_ = actWithKeyframe(parameters_, wanted_);
 }
 
 void Odometry::Implementation::reset(const Eigen::Isometry3d& T_odom_camera) {

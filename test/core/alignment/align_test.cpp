@@ -269,8 +269,8 @@ TEST_F(AlignTest, AlongAWallInTheDarkTheCameraKeepsItsVelocity) {
 
 // The keyframe shows nothing, too, but once there was light: still no other place.
 TEST_F(AlignTest, WhetherAViewIsDarkDependsOnTheLastThatWasNot) {
-  reference_.image.setTo(3);
-  live_.image.setTo(3);
+  reference_.image /= 10;
+  live_.image /= 10;
   Parameters parameters;
   FramePyramid reference;
   reference.build(reference_, parameters);
