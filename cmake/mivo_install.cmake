@@ -7,6 +7,9 @@ include(CMakePackageConfigHelpers)
 # lib/<architecture>.
 set(MIVO_LIB_DESTINATION lib CACHE STRING "Folder of the libraries below the prefix")
 set(MIVO_CMAKE_DESTINATION share/mivo/cmake)
+if(MIVO_WITH_ROS AND CMAKE_INSTALL_PREFIX STREQUAL "/usr")  # where Debian's catkin has mivoConfig.cmake
+  set(MIVO_CMAKE_DESTINATION ${MIVO_LIB_DESTINATION}/cmake/mivo)
+endif()
 
 # An installed prefix can be moved, and works without LD_LIBRARY_PATH.
 file(RELATIVE_PATH mivo_programs_to_libraries /lib/mivo /${MIVO_LIB_DESTINATION})
