@@ -14,21 +14,21 @@ constexpr double kStandingStill = 1e-6;
 
 }  // namespace
 
-std::vector<RecoveryAttempt> recoveryAttempts(const KeyframeStore& keyframes,
-                                              const Eigen::Isometry3d& T_odom_last,
-                                              const Eigen::Isometry3d& T_odom_predicted,
-                                              int lost_in_a_row) {
-  std::vector<RecoveryAttempt> attempts{{0, T_odom_last}};
+RecoveryAttempts recoveryAttempts(const KeyframeStore& keyframes,
+                                  const Eigen::Isometry3d& T_odom_last,
+                                  const Eigen::Isometry3d& T_odom_predicted, int lost_in_a_row) {
+  RecoveryAttempts attempts;
+  attempts.add({0, T_odom_last});
   const Vector6 motion = logSe3(T_odom_last.inverse() * T_odom_predicted);
   if (motion.norm() > kStandingStill) {
-    attempts.push_back({0, T_odom_predicted});
-    attempts.push_back({0, orthonormalised(T_odom_last * expSe3(0.5 * motion))});
+    attempts.add({0, T_odom_predicted});
+    attempts.add({0, orthonormalised(T_odom_last * expSe3(0.5 * motion))});
   }
   const std::size_t older = keyframes.size() - 1;
   const std::size_t first = kOlderPerFrame * static_cast<std::size_t>(lost_in_a_row);
   for (std::size_t i = 0; i < std::min(older, kOlderPerFrame); ++i) {
     const std::size_t index = 1 + (first + i) % older;
-    attempts.push_back({index, keyframes.at(index).T_odom_keyframe});
+    attempts.add({index, keyframes.at(index).T_odom_keyframe});
   }
   return attempts;
 }

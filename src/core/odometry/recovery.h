@@ -2,8 +2,8 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <array>
 #include <cstddef>
-#include <vector>
 
 #include "core/keyframe/keyframe_store.h"
 
@@ -11,9 +11,21 @@ namespace mivo {
 
 /// One way to find a lost camera again: a keyframe of the store, and where to start.
 struct RecoveryAttempt {
-  std::size_t keyframe;
-  Eigen::Isometry3d T_odom_camera;
+  std::size_t keyframe = 0;
+  Eigen::Isometry3d T_odom_camera = Eigen::Isometry3d::Identity();
   bool is_expected = false;  ///< it is where the motion so far leads
+};
+
+/// The attempts in their order; a frame allocates nothing.
+class RecoveryAttempts {
+ public:
+  void add(const RecoveryAttempt& attempt) { attempts_[size_++] = attempt; }
+  const RecoveryAttempt* begin() const { return attempts_.data(); }
+  const RecoveryAttempt* end() const { return attempts_.data() + size_; }
+
+ private:
+  std::array<RecoveryAttempt, 5> attempts_;
+  std::size_t size_ = 0;
 };
 
 /// What to try with a frame that the usual start does not align: from the last good pose, from the
@@ -21,9 +33,8 @@ struct RecoveryAttempt {
 /// their own poses against two of the older keyframes, others with every lost frame.
 /// @param T_odom_last last good pose. @param T_odom_predicted where its motion would have led.
 /// @param lost_in_a_row frames lost before this one.
-std::vector<RecoveryAttempt> recoveryAttempts(const KeyframeStore& keyframes,
-                                              const Eigen::Isometry3d& T_odom_last,
-                                              const Eigen::Isometry3d& T_odom_predicted,
-                                              int lost_in_a_row);
+RecoveryAttempts recoveryAttempts(const KeyframeStore& keyframes,
+                                  const Eigen::Isometry3d& T_odom_last,
+                                  const Eigen::Isometry3d& T_odom_predicted, int lost_in_a_row);
 
 }  // namespace mivo

@@ -28,6 +28,7 @@ void sample(const LiveImage& image, const Workspace& work, const LiveSamples& sa
   const std::size_t n = work.index.size();
   for (std::vector<float>* array :
        {&neighbour.u, &neighbour.v, &neighbour.visible, &neighbour.value}) {
+    array->reserve(work.index.capacity());  // how many are seen differs from frame to frame
     array->assign(n, 0.0F);
   }
   const auto right = static_cast<float>(image.grey.cols - 1);
@@ -75,6 +76,7 @@ Agreement imageAgreement(const ReferencePoints& points, const LiveImage& image,
                          std::size_t most_points) {
   Recycled<Workspace> work;
   work->index.clear();
+  work->index.reserve(visible.size());
   const std::size_t stride =
       std::max<std::size_t>(1, visible.size() / std::max<std::size_t>(1, most_points));
   for (std::size_t i = 0; i < visible.size(); i += stride) {
