@@ -20,6 +20,8 @@ struct RecoveryAttempt {
 class RecoveryAttempts {
  public:
   void add(const RecoveryAttempt& attempt) { attempts_[size_++] = attempt; }
+  std::size_t size() const { return size_; }
+  const RecoveryAttempt& operator[](std::size_t index) const { return attempts_[index]; }
   const RecoveryAttempt* begin() const { return attempts_.data(); }
   const RecoveryAttempt* end() const { return attempts_.data() + size_; }
 
