@@ -18,6 +18,8 @@ constexpr int kShutterLevel = 1;
 // The pixels of a level share what light, blur and depth err: mutual information counts about so
 // many times what it knows.
 constexpr double kMiCountsTimes = 8.0;
+// Noise of an image that nobody has measured, grey levels.
+constexpr double kUsualNoise = 2.0;
 // Coarser levels blur away what could be seen.
 constexpr int kCoarsestAsked = 2;
 // Where few points have led the way all of them have one short step left, and need not try it.
@@ -127,11 +129,11 @@ void LevelAligner::minimiseTerms(const LevelTerms& terms, Stage stage) {
   record_.line_search_milliseconds += minimum.line_search_milliseconds;
   if (level_ == 0 && stage != Stage::kLeading) {
     terms_->resize(num_measuring);
-    holdOpenDirections(terms.intensities);
+    holdOpenDirections(terms.intensities, terms.prior != nullptr);
   }
 }
 
-void LevelAligner::holdOpenDirections(const SsdTerm* intensities) {
+void LevelAligner::holdOpenDirections(const SsdTerm* intensities, bool has_prior) {
   const auto add_coarser = [&](const Eigen::Isometry3d& T_live_ref,
                                std::vector<TermCurvature>& curvatures) {
     Alignment there = alignment_;
@@ -142,8 +144,9 @@ void LevelAligner::holdOpenDirections(const SsdTerm* intensities) {
     }
   };
   mivo::holdOpenDirections(
-      {*terms_, intensities, points_, warp_.camera(), add_coarser, task_.expected}, parameters_,
-      alignment_);
+      {*terms_, has_prior, intensities, points_, warp_.camera(), add_coarser, task_.expected,
+       task_.live.isNormalised() ? task_.live.contrast().noise() : kUsualNoise},
+      parameters_, alignment_);
 }
 
 TermCurvature LevelAligner::imageCurvature() {

@@ -53,7 +53,7 @@ class LevelAligner {
   Stage alignLeadingPoints();
   void judgeDepth(const GeometricTerm& geometry);
   void minimiseTerms(const LevelTerms& terms, Stage stage = Stage::kOnly);
-  void holdOpenDirections(const SsdTerm* intensities);
+  void holdOpenDirections(const SsdTerm* intensities, bool has_prior);
   void measureRows(SsdTerm& term, GeometricTerm* geometry);
   double toleranceOf(Stage stage) const;
   double share(std::size_t points) const;

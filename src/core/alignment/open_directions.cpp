@@ -15,9 +15,11 @@ namespace {
 // What interpolation, blur and the keyframe's depth leave of systematic error, pixels: all points
 // err alike, so that no residual shows it.
 constexpr double kModelErrorPixels = 0.05;
-// A direction along which the keyframe's image changes by less than this, grey levels per pixel,
-// may show nothing but noise: that of a camera in the dark has about half of it.
-constexpr double kNoiseGradient = 4.0;
+// A direction along which the keyframe's image changes by less than noise does from pixel to pixel,
+// or than rounding and compression may, could show nothing else, grey levels per pixel. Smoothed,
+// an image's gradients have a quarter of its noise; chosen for being strong, up to twice that.
+constexpr double kNoiseGradient = 1.0;  // per grey level of noise
+constexpr double kLeastGradient = 1.0;
 // So many points tell in a tenth of a millisecond what most views show.
 constexpr std::size_t kPointsAtFirst = 1024;
 // What robust weights leave of a sum of squares, about.
@@ -40,13 +42,14 @@ std::array<bool, 6> directionsInDoubt(const Observability& seen, const FinishedD
   }
   Vector6 scale = Vector6::Ones();
   scale.head<3>().setConstant(static_cast<double>(descent.points.median_depth));
+  const double noise_gradient = std::max(kLeastGradient, kNoiseGradient * descent.noise);
   const double residual = descent.image->scale();
   const double per_curvature =
       residual * residual / (kMeanWeight * static_cast<double>(descent.points.size()));
   for (int i = 0; i < 6; ++i) {
     const double pixels = pixelsOf(scale.cwiseProduct(seen.axes().col(i)), descent.points);
     const double gradient = std::sqrt(std::max(0.0, seen.curvature()[i]) * per_curvature);
-    doubt[static_cast<std::size_t>(i)] = !(gradient > kNoiseGradient * pixels);
+    doubt[static_cast<std::size_t>(i)] = !(gradient > noise_gradient * pixels);
   }
   return doubt;
 }
@@ -65,13 +68,18 @@ Matrix6 gradientCovariance(const FinishedDescent& descent, const Matrix6& hessia
   return static_cast<double>(blocks) / (blocks - 6.0) * of_gradient;
 }
 
-/// In place of what was in the list.
-void findCurvatures(const FinishedDescent& descent, const Eigen::Isometry3d& T_live_ref,
+/// In place of what was in the list. The Hessian of all terms is known: the last one has the rest.
+void findCurvatures(const FinishedDescent& descent, const Alignment& alignment,
                     std::size_t most_points, std::vector<TermCurvature>& curvatures) {
   curvatures.clear();
-  for (CostTerm* term : descent.terms) {
-    term->evaluate(T_live_ref);
-    curvatures.push_back({term->linearise(kScaleIsKept).hessian, term->agreement(most_points)});
+  Matrix6 rest = alignment.hessian;
+  for (std::size_t i = descent.terms.size(); i-- > 0;) {
+    CostTerm& term = *descent.terms[i];
+    term.evaluate(alignment.T_live_ref);
+    const bool is_known = i == 0 && !descent.has_prior;
+    const Matrix6 hessian = is_known ? rest : term.linearise(kScaleIsKept).hessian;
+    rest -= hessian;
+    curvatures.push_back({hessian, term.agreement(most_points)});
   }
 }
 
@@ -90,11 +98,11 @@ Observability lookAt(const FinishedDescent& descent, const Matrix6& expected_cov
   }
   Recycled<std::vector<TermCurvature>> curvatures;
   Observability few = seen;
-  findCurvatures(descent, alignment.T_live_ref, kPointsAtFirst, *curvatures);
+  findCurvatures(descent, alignment, kPointsAtFirst, *curvatures);
   few.confirm(doubt, *curvatures);
   if (!few.hasOpen()) return few;
   // Before a direction is called open all points are asked, and coarser levels.
-  findCurvatures(descent, alignment.T_live_ref, descent.points.size(), *curvatures);
+  findCurvatures(descent, alignment, descent.points.size(), *curvatures);
   descent.add_coarser(alignment.T_live_ref, *curvatures);
   seen.confirm(doubt, *curvatures);
   return seen;

@@ -17,6 +17,7 @@ namespace mivo {
 /// A descent that has come to its end on the finest level.
 struct FinishedDescent {
   const std::vector<CostTerm*>& terms;  ///< that measure the pose, at the end of the descent
+  bool has_prior = false;               ///< the motion prior took part, too, and is in the Hessian
   const SsdTerm* image = nullptr;       ///< that of them whose residuals are grey levels, if any
   const ReferencePoints& points;
   const Camera& camera;  ///< of the level
@@ -25,6 +26,7 @@ struct FinishedDescent {
   std::function<void(const Eigen::Isometry3d& T_live_ref, std::vector<TermCurvature>& curvatures)>
       add_coarser;
   const PoseExpectation& expected;
+  double noise = 0.0;  ///< of the live image, grey levels
 };
 
 /// Finds the directions that the terms leave open, holds the pose in them where it is expected, and
