@@ -114,6 +114,34 @@ TEST(ObservabilityTest, CurvatureOfNoiseIsNoViewAlthoughItIsLarge) {
   }
 }
 
+// Sideways nothing is seen, but the noise that looks like a view of it also looks like one of
+// turning, of which there is a view. Robust weights give the term another Hessian than the sum of
+// squares that is compared: the view of one must not spill over into the other.
+TEST(ObservabilityTest, WhatIsSeenOfOneDirectionDoesNotSpillOverIntoAnother) {
+  TermCurvature term;
+  Random random(9);
+  for (int i = 0; i < kPoints; ++i) {
+    const double seen = kSignal * random.normal();
+    const auto derivative = [&](double noise, const Vector6& rest) {
+      Vector6 d = rest;
+      d[0] = noise;
+      d[4] = 1.1 * noise + seen;
+      return Vector6(scale().cwiseInverse().cwiseProduct(d));
+    };
+    Vector6 rest = Vector6::Zero();
+    for (const int k : {1, 2, 3, 5}) rest[k] = kSignal * random.normal();
+    const Vector6 by_keyframe = derivative(4.0 * kNoise * random.normal(), rest);
+    term.agreement.add(by_keyframe, derivative(4.0 * kNoise * random.normal(), rest));
+    const double weight = std::abs(seen) > kSignal ? 0.2 : 1.0;
+    term.hessian += weight * by_keyframe * by_keyframe.transpose();
+  }
+  const Observability seen = confirmed(term);
+  EXPECT_EQ(numOpen(seen), 1);
+  const Directions expected = {true, false, false, false, false, false};
+  EXPECT_EQ(seen.openDirections(Eigen::Isometry3d::Identity()), expected);
+  EXPECT_LT((seen.openProjector() * Vector6::Unit(0) - Vector6::Unit(0)).norm(), 0.05);
+}
+
 TEST(ObservabilityTest, WhatBothFramesSeeIsKept) {
   const TermCurvature term = TwoFrames(Vector6::Unit(0), 0.0).term();
   TermCurvature other = TwoFrames(Vector6::Unit(1), 0.0).term();

@@ -99,8 +99,7 @@ TEST_F(DepthAgreementTest, WithoutLiveDepthNothingIsCompared) {
 
 // Noise tilts the planes of a wall, and the tilts have curvature along it and about its normal.
 TEST_F(DepthAgreementTest, NoiseOfAWallDoesNotAgreeAlongIt) {
-  const Frame wall =
-      testing::render(testing::wallScene(), camera_, Eigen::Isometry3d::Identity());
+  const Frame wall = testing::render(testing::wallScene(), camera_, Eigen::Isometry3d::Identity());
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     lookAtKeyframe(noisyDepth(wall, 0.004, seed));
     const Agreement agreement =

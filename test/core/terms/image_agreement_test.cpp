@@ -102,8 +102,8 @@ TEST_F(ImageAgreementTest, HiddenPointsDoNotCount) {
   const Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
   warp_.sample(points_, points_.size(), T, same, samples);
   const std::vector<float> hidden(points_.size(), 0.0F);
-  EXPECT_EQ(
-      imageAgreement(points_, {same, nullptr}, samples, hidden, warp_, T, kAllPoints).points, 0);
+  EXPECT_EQ(imageAgreement(points_, {same, nullptr}, samples, hidden, warp_, T, kAllPoints).points,
+            0);
 }
 
 cv::Mat noiseImage(const Camera& camera, std::uint64_t seed) {
@@ -123,7 +123,12 @@ TEST_F(ImageAgreementTest, AnotherNoiseDoesNotAgreeInAnyDirection) {
     makeReferencePoints({keyframe}, {depth}, camera_, {}, false, points_);
     const Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
     const Agreement other = agreementWith(noiseImage(camera_, seed + 100), T);
-    EXPECT_LT(largestCorrelation(other, {0, 1, 2, 3, 4, 5}), 6.0 / std::sqrt(other.points)) << seed;
+    for (int axis = 0; axis < 6; ++axis) {
+      EXPECT_LT(largestCorrelation(other, {axis}), 6.0 / std::sqrt(other.points)) << seed;
+    }
+    // The worst of all directions, and neighbours share pixels, whose noise then counts twice.
+    EXPECT_LT(largestCorrelation(other, {0, 1, 2, 3, 4, 5}), 10.0 / std::sqrt(other.points))
+        << seed;
     // Its own noise would: that is why the keyframe alone cannot tell.
     const Agreement own = agreementWith(keyframe, T);
     EXPECT_GT(largestCorrelation(own, {0, 1, 2, 3, 4, 5}), 0.99) << seed;

@@ -71,8 +71,7 @@ TEST(MiEvidenceTest, ChanceIsNoEvidenceForAnyNumberOfBinsAndPoints) {
   Random random(1);
   for (const int bins : kBins) {
     for (const std::size_t points : {kPoints, std::size_t{4000}}) {
-      const Chance uniform =
-          chanceOf([&] { return unrelatedUniform(random, points, bins); }, 100);
+      const Chance uniform = chanceOf([&] { return unrelatedUniform(random, points, bins); }, 100);
       EXPECT_LT(uniform.mean, 1.0) << bins << " bins, " << points << " points";
       EXPECT_LT(uniform.most, 6.0) << bins << " bins, " << points << " points";
       const Chance normal =
@@ -95,12 +94,17 @@ TEST(MiEvidenceTest, CorrelatedImagesAreSignificantForAnyNumberOfBins) {
   }
 }
 
+// Of what the windows of the bins leave of it: they have the variance of a third of a bin squared.
 TEST(MiEvidenceTest, CorrelationIsThatOfNormalImages) {
   Random random(3);
-  for (const int bins : {8, 16}) {
-    EXPECT_NEAR(correlatedNormal(random, 0.8, 4 * kPoints, bins).correlation, 0.8, 0.1) << bins;
-    EXPECT_NEAR(correlatedNormal(random, -0.8, 4 * kPoints, bins).correlation, 0.8, 0.1) << bins;
-    EXPECT_LT(correlatedNormal(random, 0.0, 4 * kPoints, bins).correlation, 0.1) << bins;
+  for (const int bins : {8, 16, 32}) {
+    const double bin = 2.0 * 2.58 / (bins - 1.0);  // in standard deviations
+    const double expected = 0.8 / (1.0 + bin * bin / 3.0);
+    for (const double correlation : {0.8, -0.8}) {
+      const double found = correlatedNormal(random, correlation, 4 * kPoints, bins).correlation;
+      EXPECT_NEAR(found, expected, 0.04) << bins;
+    }
+    EXPECT_LT(correlatedNormal(random, 0.0, 4 * kPoints, bins).correlation, 0.12) << bins;
   }
 }
 
