@@ -31,7 +31,9 @@ double pixelsOf(const Vector6& increment, const ReferencePoints& points) {
   return std::sqrt(std::max(0.0, increment.dot(points.pixel_motion * increment)));
 }
 
-/// Directions whose curvature could be that of noise.
+/// Directions whose curvature could be that of noise: all if one could be. Noise couples what is
+/// not seen with what is seen a little, such as motion sideways with turning, so that the direction
+/// that is not seen lies across several axes of the Hessian.
 std::array<bool, 6> directionsInDoubt(const Observability& seen, const FinishedDescent& descent,
                                       double least_correlation) {
   std::array<bool, 6> doubt{};
@@ -49,7 +51,7 @@ std::array<bool, 6> directionsInDoubt(const Observability& seen, const FinishedD
   for (int i = 0; i < 6; ++i) {
     const double pixels = pixelsOf(scale.cwiseProduct(seen.axes().col(i)), descent.points);
     const double gradient = std::sqrt(std::max(0.0, seen.curvature()[i]) * per_curvature);
-    doubt[static_cast<std::size_t>(i)] = !(gradient > noise_gradient * pixels);
+    if (!(gradient > noise_gradient * pixels)) doubt.fill(true);
   }
   return doubt;
 }
