@@ -73,8 +73,7 @@ double estimateNoise(const cv::Mat& image) {
 
 void ContrastMaps::build(const ImagePyramid& pyramid, int num_levels) {
   maps_.resize(static_cast<std::size_t>(num_levels));
-  noise_ = estimateNoise(pyramid.level(0));
-  double noise = noise_;
+  double noise = estimateNoise(pyramid.level(0));
   for (int l = 0; l < num_levels; ++l) {
     ContrastMap& map = maps_[static_cast<std::size_t>(l)];
     const cv::Mat& reduced = pyramid.level(l + 2);
@@ -85,7 +84,6 @@ void ContrastMaps::build(const ImagePyramid& pyramid, int num_levels) {
         scratch_.data());
     repeatEnds(map.pairs);
     const double contrast = std::sqrt(variances / static_cast<double>(reduced.total()));
-    if (l <= 1) contrast_ = contrast;
     map.constant = static_cast<float>(std::max(
         {kContrastShare * contrast, l == 0 ? kNoiseSmoothed * noise : noise, kMinConstant}));
     noise *= kNoiseReduction;
