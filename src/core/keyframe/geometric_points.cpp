@@ -10,16 +10,21 @@
 namespace mivo {
 namespace {
 
-constexpr int kRadius = 3;  // pixels of the level: a patch is 7 x 7
-constexpr int kStep = 3;    // pixels between patches
+// Pixels of the level: a patch is 7 x 7. Smaller ones are tilted by the steps of the disparity,
+// larger ones find few planes.
+constexpr int kRadius = 3;
+// Pixels between patches: no surface of 9 x 9 pixels is missed.
+constexpr int kStep = 3;
 constexpr double kPatchSize = (2 * kRadius + 1) * (2 * kRadius + 1);
 // Sum of u^2 over the patch: 7 (1 + 4 + 9) 2.
 constexpr double kSquares = 196.0;
-// A patch is planar when its residuals are at most this many deviations of a reading.
+// residuals <= this many deviations of a reading, root mean square: the patch is planar. Noise
+// alone has one; two is noise that the sensor's model underrates, and not yet an edge.
 constexpr double kPlanar = 2.0;
-// Surfaces seen at a flatter angle have no reliable depth.
+// |cos| of ray and normal > this: surfaces seen at a flatter angle than 17 degrees have no
+// reliable depth.
 constexpr double kMinCosine = 0.3;
-// Directions of normals: 4 rings of 8 sectors.
+// Directions of normals: 4 rings of 8 sectors. Surfaces at right angles never share one.
 constexpr int kRings = 4;
 constexpr int kSectors = 8;
 

@@ -8,7 +8,7 @@
 namespace mivo {
 namespace {
 
-constexpr int kStride = 2;
+constexpr int kStride = 2;  // pixels: a quarter of them is enough to look at
 
 /// Points of the pixels, every second one, that have depth and a ray.
 ReferencePoints pointsOf(const Keyframe& keyframe, const Camera& camera) {
