@@ -34,7 +34,8 @@ Camera withLens(const Distortion& distortion) {
 }
 
 double cornerRadius(const Camera& c) {
-  return std::hypot((c.width - 1.0 - c.cx) / c.fx, (c.height - 1.0 - c.cy) / c.fy);
+  return std::hypot(std::max(c.cx, c.width - 1.0 - c.cx) / c.fx,
+                    std::max(c.cy, c.height - 1.0 - c.cy) / c.fy);
 }
 
 // The small camera's corners lie at the distorted radius 0.76. These fold where rays have the radii
@@ -48,6 +49,19 @@ TEST(LensTest, WithoutDistortionEachPixelHasARay) {
   EXPECT_TRUE(std::isinf(camera.lensRange().distorted));
   EXPECT_EQ(*camera.ray({1e6, -1e6}),
             Eigen::Vector3d((1e6 - camera.cx) / camera.fx, (-1e6 - camera.cy) / camera.fy, 1.0));
+}
+
+TEST(LensTest, PublishedCalibrationsOfTheTumKinectsHaveARayForEachPixel) {
+  for (const Camera& camera :
+       {Camera{640, 480, 517.3, 516.5, 318.6, 255.3, {0.2624, -0.9531, -0.0054, 0.0026, 1.1633}},
+        Camera{
+            640, 480, 520.9, 521.0, 325.1, 249.7, {0.2312, -0.7849, -0.0033, -0.0001, 0.9172}}}) {
+    const LensRange range = camera.lensRange();
+    EXPECT_GT(range.distorted, cornerRadius(camera));
+    for (const double x : {0.0, 639.0}) {
+      for (const double y : {0.0, 479.0}) EXPECT_TRUE(camera.ray({x, y}, range));
+    }
+  }
 }
 
 // By definition: the first radius, over all directions, at which the derivative's least eigenvalue
