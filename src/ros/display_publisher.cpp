@@ -37,7 +37,12 @@ void addFrustum(const Camera& camera, const Eigen::Isometry3d& T,
   const Eigen::Vector2d corners[] = {{-0.5, -0.5}, {right, -0.5}, {right, bottom}, {-0.5, bottom}};
   const geometry_msgs::Point centre = toPoint(T.translation());
   geometry_msgs::Point ends[4];
-  for (int i = 0; i < 4; ++i) ends[i] = toPoint(T * (kFrustumDepth * camera.ray(corners[i])));
+  for (int i = 0; i < 4; ++i) {
+    // A corner that the lens has no ray for is drawn where a pinhole would see it.
+    const Eigen::Vector3d pinhole((corners[i].x() - camera.cx) / camera.fx,
+                                  (corners[i].y() - camera.cy) / camera.fy, 1.0);
+    ends[i] = toPoint(T * (kFrustumDepth * camera.ray(corners[i]).value_or(pinhole)));
+  }
   for (int i = 0; i < 4; ++i) {
     points.insert(points.end(), {centre, ends[i], ends[i], ends[(i + 1) % 4]});
   }

@@ -9,6 +9,7 @@
 #include "mivo/core/camera.h"
 #include "support/analytic_image.h"
 #include "support/point_derivatives.h"
+#include "support/projection.h"
 
 // Points of a keyframe whose image is known in closed form, and what the keyframe shows of them
 // after an increment.
@@ -51,7 +52,7 @@ inline ReferencePoints analyticPoints(const AnalyticImage& image, const Camera& 
   }
   points.pixel_motion.setZero();
   for (const Pixel& pixel : points.pixels) {
-    const Eigen::Vector3d ray = camera.ray({pixel.x, pixel.y});
+    const Eigen::Vector3d ray = *camera.ray({pixel.x, pixel.y});
     const Eigen::Vector3d point = slopingDepth(pixel.x, pixel.y) * ray;
     Eigen::Matrix2d scale = Eigen::Matrix2d::Identity();
     camera.distort(ray.head<2>(), &scale);
@@ -81,7 +82,7 @@ inline ReferencePoints analyticPoints(const AnalyticImage& image, const Camera& 
 /// The intensity of a point in the keyframe's image after an increment.
 inline double warpedIntensity(const AnalyticImage& image, const Camera& camera,
                               const Eigen::Vector3d& point, const Vector6& d) {
-  return image(*camera.project(warped(point, d))).value;
+  return image(*project(camera, warped(point, d))).value;
 }
 
 }  // namespace mivo::testing

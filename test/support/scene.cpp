@@ -98,6 +98,16 @@ double lightOf(const Light& light, double brightness, double x, double y) {
   return value;
 }
 
+/// The ray of a pixel; beyond the range of the lens the one at its edge, for a lens sees something
+/// there, too.
+Eigen::Vector3d rayOf(const Camera& camera, const Eigen::Vector2d& pixel, const LensRange& range) {
+  if (const auto ray = camera.ray(pixel, range)) return *ray;
+  const Eigen::Vector2d centre(camera.cx, camera.cy);
+  const Eigen::Array2d focal_lengths(camera.fx, camera.fy);
+  const double radius = ((pixel - centre).array() / focal_lengths).matrix().norm();
+  return *camera.ray(centre + 0.999 * range.distorted / radius * (pixel - centre), range);
+}
+
 template <typename PoseOfRow>
 Frame renderRows(const Scene& scene, const Camera& camera, const PoseOfRow& poseOfRow,
                  const Light& light, const Sensor& sensor) {
@@ -107,12 +117,13 @@ Frame renderRows(const Scene& scene, const Camera& camera, const PoseOfRow& pose
   frame.image.create(camera.height, camera.width, CV_8UC1);
   frame.depth =
       cv::Mat::zeros(camera.height, camera.width, sensor.integer_depth ? CV_16UC1 : CV_32FC1);
+  const LensRange range = camera.lensRange();
   for (int y = 0; y < camera.height; ++y) {
     const Eigen::Isometry3d T_world_camera = poseOfRow(y);
     for (int x = 0; x < camera.width; ++x) {
       // The ray has depth 1, so the distance along it is the depth of what it hits.
       const Hit hit = castRay(scene, textures, T_world_camera.translation(),
-                              T_world_camera.linear() * camera.ray({x, y}));
+                              T_world_camera.linear() * rayOf(camera, {x, y}, range));
       frame.image.at<unsigned char>(y, x) = greyLevel(255.0 * lightOf(light, hit.brightness, x, y));
       if (sensor.integer_depth) {
         frame.depth.at<unsigned short>(y, x) =

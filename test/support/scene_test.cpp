@@ -5,6 +5,7 @@
 
 #include <opencv2/core.hpp>
 
+#include "support/projection.h"
 #include "support/random_pose.h"
 
 // The fixture checks itself first: if it lies, every test built on it does.
@@ -36,7 +37,7 @@ TEST(SceneTest, APlaceOnTheWallLooksTheSameFromEverywhere) {
     for (int x = 5; x < camera.width - 5; x += 7) {
       const double depth = static_cast<double>(a.depth.at<float>(y, x));
       const auto seen =
-          camera.project(T_world_b.inverse() * T_world_a * (depth * camera.ray({x, y})));
+          testing::project(camera, T_world_b.inverse() * T_world_a * (depth * *camera.ray({x, y})));
       if (!seen || seen->x() < 1 || seen->y() < 1 || seen->x() >= camera.width - 2 ||
           seen->y() >= camera.height - 2) {
         continue;

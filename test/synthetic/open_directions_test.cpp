@@ -131,7 +131,7 @@ TEST_F(OpenDirections, DepthIsThatOfTheSurface) {
     for (int y = 0; y < camera.height; y += 7) {
       for (int x = 0; x < camera.width; x += 7) {
         const Eigen::Vector3d point =
-            pose * (view.depth.at<float>(y, x) * camera.ray(Eigen::Vector2d(x, y)));
+            pose * (view.depth.at<float>(y, x) * *camera.ray(Eigen::Vector2d(x, y)));
         if (scene.scene == "tube" || scene.scene == "rings") {
           EXPECT_NEAR(std::hypot(point.x(), point.z()), 1.3, kDepthRounding);
         } else if (scene.scene == "blank_floor") {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "mivo/core/se3.h"
+#include "support/projection.h"
 #include "synthetic/sequence_generator.h"
 
 // The images, the depth and the poses of a sequence must agree: a frame warped into another one by
@@ -89,8 +90,8 @@ std::vector<Match> match(const SyntheticFrame& reference, const SyntheticFrame& 
     for (int x = 4; x < camera.width - 4; x += 2) {
       if (!isPlane(reference.exact_depth, x, y)) continue;
       const Eigen::Vector3d point =
-          T_live_ref * (reference.exact_depth.at<float>(y, x) * camera.ray(Eigen::Vector2d(x, y)));
-      const auto pixel = camera.project(point);
+          T_live_ref * (reference.exact_depth.at<float>(y, x) * *camera.ray(Eigen::Vector2d(x, y)));
+      const auto pixel = testing::project(camera, point);
       if (!pixel || pixel->x() < 5 || pixel->y() < 5 || pixel->x() > camera.width - 6 ||
           pixel->y() > camera.height - 6) {
         continue;

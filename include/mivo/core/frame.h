@@ -8,8 +8,9 @@
 
 namespace mivo {
 
-/// One image with registered depth: the input of Odometry. The tracker keeps no reference to the
-/// pixels after Odometry::process has returned.
+/// One image with registered depth: the input of Odometry. Odometry::process copies what it needs
+/// later: after it has returned the pixels are not read again and may be overwritten, though their
+/// memory is shared until frames after this one take its place.
 struct Frame {
   double stamp = 0.0;         ///< s, in the input's own time
   cv::Mat image;              ///< CV_8UC1, grey

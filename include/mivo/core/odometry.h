@@ -39,7 +39,8 @@ class Odometry {
   /// The same, from the given start instead of the predicted pose.
   const TrackingResult& process(const Frame& frame, const Eigen::Isometry3d& T_odom_camera_start);
 
-  /// Where the motion model expects the camera at a time.
+  /// Where the motion model expects the camera at a time; it continues a motion for half a second
+  /// at most.
   Eigen::Isometry3d predictedPose(double stamp) const;
 
   /// Forgets keyframe, motion and stamps; the next frame starts at the given pose. Throws Error

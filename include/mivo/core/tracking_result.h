@@ -48,8 +48,10 @@ struct LevelRecord {
   int iterations = 0;               ///< steps taken
   int evaluations = 0;              ///< of the cost, line search included
   bool mutual_information = false;  ///< aligned by mutual information, otherwise by SSD
-  double cost = 0.0;          ///< at the end: nats (negative MI), or half the mean weighted square
-  double milliseconds = 0.0;  ///< processor time
+  /// At the end, nats for each point of the level: the sum of all terms that took part (negative MI
+  /// or the robust loss of the residuals, of depth, of the motion expected).
+  double cost = 0.0;
+  double milliseconds = 0.0;              ///< processor time
   double line_search_milliseconds = 0.0;  ///< of it, in evaluations of the line search
 };
 
@@ -88,7 +90,8 @@ struct TrackingResult {
   /// Covariance of the pose's error (translation m, rotation rad) in the axes of the camera:
   /// T_true = T_odom_camera * retract(error). Symmetric and positive definite. It grows from
   /// keyframe to keyframe: it is that of the alignment and that of the keyframe together. Of the
-  /// first frame, true by definition, it is next to nothing; of a guess, a metre and a radian.
+  /// first frame, true by definition, it is next to nothing; of a guess, a metre and a radian and
+  /// what the motion since the last good pose may add.
   Matrix6 covariance = Matrix6::Identity();
 
   /// The same of the alignment alone, with the keyframe's pose taken as true: what motion between

@@ -11,9 +11,13 @@
 namespace mivo {
 namespace {
 
-constexpr double kContrastShare = 0.1;  // constant as a share of the frame's own contrast
-constexpr double kMinConstant = 0.2;    // grey levels
-// A Gaussian reduction leaves about this much of white noise from level to level.
+// The constant of the normalisation is the largest of three. A share of the frame's own contrast,
+// root mean square: a tenth changes what is usual by a tenth, and keeps flat places small.
+constexpr double kContrastShare = 0.1;
+// Grey levels: less than the rounding of 8 bits, 0.29, and no division by nothing.
+constexpr double kMinConstant = 0.2;
+// And the noise. A Gaussian reduction leaves about this much of it from level to level: 70 / 256 of
+// white noise, more of what is no longer white.
 constexpr double kNoiseReduction = 0.3;
 // What smoothing leaves of the noise on level 0, 6/16.
 constexpr double kNoiseSmoothed = 0.375;
@@ -48,7 +52,7 @@ void repeatEnds(cv::Mat& pairs) {
 /// Noise of an 8-bit image from second differences along some rows: texture has few of them, noise
 /// everywhere. Interpolated between whole numbers.
 double estimateNoise(const cv::Mat& image) {
-  constexpr int kRowStep = 16;
+  constexpr int kRowStep = 16;  // 30 rows of 640 pixels tell the median to a hundredth
   constexpr int kLargest = 2 * 255;
   std::array<int, kLargest + 1> counts{};
   int total = 0;
@@ -73,8 +77,7 @@ double estimateNoise(const cv::Mat& image) {
 
 void ContrastMaps::build(const ImagePyramid& pyramid, int num_levels) {
   maps_.resize(static_cast<std::size_t>(num_levels));
-  noise_ = estimateNoise(pyramid.level(0));
-  double noise = noise_;
+  double noise = estimateNoise(pyramid.level(0));
   for (int l = 0; l < num_levels; ++l) {
     ContrastMap& map = maps_[static_cast<std::size_t>(l)];
     const cv::Mat& reduced = pyramid.level(l + 2);
@@ -85,7 +88,6 @@ void ContrastMaps::build(const ImagePyramid& pyramid, int num_levels) {
         scratch_.data());
     repeatEnds(map.pairs);
     const double contrast = std::sqrt(variances / static_cast<double>(reduced.total()));
-    if (l <= 1) contrast_ = contrast;
     map.constant = static_cast<float>(std::max(
         {kContrastShare * contrast, l == 0 ? kNoiseSmoothed * noise : noise, kMinConstant}));
     noise *= kNoiseReduction;

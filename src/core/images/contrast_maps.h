@@ -31,17 +31,9 @@ class ContrastMaps {
 
   const ContrastMap& level(int level) const { return maps_[static_cast<std::size_t>(level)]; }
 
-  /// Standard deviation of the noise of a pixel of level 0, grey levels.
-  double noise() const { return noise_; }
-
-  /// Root mean square of the local deviation on level 1, grey levels: how much there is to see.
-  double contrast() const { return contrast_; }
-
  private:
   std::vector<ContrastMap> maps_;
   std::vector<float> scratch_;
-  double noise_ = 0.0;
-  double contrast_ = 0.0;
 };
 
 /// Normalised intensity at a whole pixel of a level.

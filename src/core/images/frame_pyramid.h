@@ -17,7 +17,7 @@ namespace mivo {
 class FramePyramid {
  public:
   /// Rebuilds from a frame that fits the camera; buffers are reused. The frame's depth is referred
-  /// to, not copied.
+  /// to, not copied: it is read only while the frame is being processed.
   void build(const Frame& frame, const Parameters& parameters);
 
   int numLevels() const { return num_levels_; }

@@ -9,7 +9,7 @@
 namespace mivo {
 namespace {
 
-// A coarser level would hold nothing but a few blurred edges.
+// Shorter side >= this, pixels: a coarser level would hold nothing but a few blurred edges.
 constexpr int kMinSide = 15;
 
 }  // namespace

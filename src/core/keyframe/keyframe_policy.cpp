@@ -6,9 +6,12 @@
 namespace mivo {
 namespace {
 
+// motion > patience * limit, overlap < 1 - patience * (1 - limit): so many times further away than
+// usual a keyframe is still used. Safe, for the margin below ends it before the camera is lost.
 constexpr double kPatienceInTheDark = 4.0;
 constexpr double kPatienceWithBlur = 1.6;
-// A keyframe is changed before its overlap is so small that frames are lost.
+// overlap < lost_overlap + this: a keyframe is changed before its overlap is so small that frames
+// are lost.
 constexpr double kOverlapMargin = 0.1;
 
 /// An image that shows too little, or is blurred, would be a poor reference: better one that is far

@@ -13,7 +13,7 @@ namespace {
 
 // The pixels around a point: itself, left, right, above, below, and the corners.
 enum Place { kHere, kLeft, kRight, kAbove, kBelow, kUpLeft, kUpRight, kDownLeft, kDownRight };
-// Saturated points have been left out when the pixels were chosen.
+// intensity >= this hides a point: never. Saturated ones were left out when pixels were chosen.
 constexpr float kNeverSaturated = 1e9F;
 constexpr std::size_t kPlaces = 9;
 constexpr std::size_t kPlacesOfGradient = 5;

@@ -15,18 +15,22 @@ namespace {
 constexpr double kModelErrorAngle = 4e-4;
 // One frame counts at most this much: the errors of a keyframe's frames are not independent.
 constexpr double kMaxInformation = 100.0;
+// |correction|, |offset| <= this, frame periods: more is another frame's depth, which pairing, not
+// this, has to find. A frame far off is clipped, so that none turns the mean alone.
 constexpr double kMaxCorrection = 1.0;
 constexpr double kMaxOffset = 1.0;
-// A keyframe with less than this says nothing, and counts at most the other.
+// information >= the first, or a keyframe says nothing: its deviation would be 0.18 periods and
+// more. It counts at most the other, so that one long keyframe does not outvote all.
 constexpr double kMinKeyframe = 30.0;
 constexpr double kMaxKeyframe = 300.0;
-// What former keyframes keep of their weight.
+// What former keyframes keep of their weight with each new one: about the last ten count.
 constexpr double kMemory = 0.9;
 // It is believed when so many keyframes differ from none by so many deviations of their mean,
 constexpr double kKeyframes = 3.0;
 constexpr double kDeviations = 4.0;
 // and is at least this, frame periods. Less is not told from registration and model errors.
 constexpr double kNoneBelow = 0.1;
+// Once believed it is held until it is less than half of that: no switching to and fro.
 constexpr double kForgottenBelow = 0.05;
 // From keyframe to keyframe it changes by no more: first keyframes may exaggerate, and the read-out
 // is being estimated from the same motion.

@@ -14,23 +14,30 @@ namespace {
 // One frame counts at most this much, or a few good frames would speak for the whole keyframe:
 // their errors come from the keyframe's depth and are not independent.
 constexpr double kMaxInformation = 500.0;
+// |correction of one frame| <= this, frame periods: a first one asks for 0.4 at most, see below.
 constexpr double kMaxCorrection = 0.5;
-// A keyframe with less than this says nothing.
+// information >= this, or a keyframe says nothing: two full frames at least, deviation 0.03.
 constexpr double kMinInformation = 1000.0;
 // A rolling shutter of 0.6 asks for 0.1 to 0.4 at first. Moving shadows and clipped images may ask
 // for as much by chance; but when that is believed, the next keyframes ask for at least 0.3 less.
+// All compared with corrections in frame periods: two keyframes > each, their mean > mean.
 constexpr double kSwitchOnEach = 0.1;
 constexpr double kSwitchOnMean = 0.15;
 constexpr double kRevoked = -0.25;
 constexpr int kProbation = 3;  // keyframes
 // The pose of each frame absorbs most of the effect, so that a correction is too small by this.
 constexpr double kGain = 4.0;
+// First estimate <= this, each later change <= the next, frame periods: chance that is multiplied
+// by the gain does not reach further than a Kinect's read-out, and later ones approach in steps.
 constexpr double kFirstLimit = 0.6;
 constexpr double kStepLimit = 0.2;
+// The gain falls as 1 / (1 + updates / 2), as that of a mean, to this: a slow change is followed.
 constexpr double kMinGain = 0.1;
+// |correction| > this, frame periods: less is no news, and would use up the gain.
 constexpr double kIgnored = 0.01;
+// Estimate < this: too little to matter, and to be told from none. Taken as a global shutter.
 constexpr double kGlobalBelow = 0.1;
-// So many products are summed in floats, then in doubles.
+// So many products are summed in floats, then in doubles: an error of 1e-5 at most.
 constexpr std::size_t kFloatSums = 128;
 
 /// Of the pose, the read-out time and the residual.

@@ -12,7 +12,7 @@ namespace {
 
 // The patches of the keyframe's planes are as large: 14 pixels of the image at 640 columns.
 constexpr int kReadings = 2;    // to each side
-constexpr int kFewest = 13;     // of 25 readings
+constexpr int kFewest = 13;     // count >= this: half of the 25
 constexpr int kStepPixels = 3;  // between two of them
 
 /// Normal of a plane through the live depth around a pixel, in the axes of the live camera, towards

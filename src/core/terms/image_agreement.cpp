@@ -10,7 +10,7 @@
 namespace mivo {
 namespace {
 
-// Clipped pixels have been left out of `visible`.
+// intensity >= this hides a point: never. Clipped pixels have been left out of `visible`.
 constexpr float kNeverSaturated = 1e9F;
 
 /// Live pixels of some points, moved by whole pixels, and what the image shows there.

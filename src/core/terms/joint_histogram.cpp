@@ -11,6 +11,7 @@ namespace mivo {
 namespace {
 
 constexpr int kGreyLevels = 256;
+// high >= low + this, grey levels: an image of one grey is divided by something.
 constexpr float kMinRange = 1.0F;
 // Keeps the topmost position inside of the last interval between two bins.
 constexpr float kBelowTop = 1e-3F;

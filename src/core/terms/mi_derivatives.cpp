@@ -11,13 +11,15 @@
 // of a point on the reference axis and its derivative J = ds/dd,
 //
 //   dp_rl = 1/n sum_x beta'_r beta_l J
-//   G     = sum_rl log(p_rl / p_r) dp_rl        (log p_l and the constants drop out: sum_r dp_rl =
-//   0) H     = sum_rl dp_rl dp_rl^T / p_rl - sum_r dp_r dp_r^T / p_r
+//   G     = sum_rl log(p_rl / p_r) dp_rl
+//
+//   H     = sum_rl dp_rl dp_rl^T / p_rl - sum_r dp_r dp_r^T / p_r
 //         + 1/n sum_x (h J J^T + g d2s)
 //
-// where g = sum_rl beta'_r beta_l log(p_rl / p_r) and h the same with beta''_r over the 4 x 4 bins
-// that a point touches. The first line of H alone is positive semidefinite: it is the second
-// derivative of the windows, h, that makes H negative definite at the maximum.
+// (log p_l and the constants drop out of G, for sum_r dp_rl = 0), where g = sum_rl beta'_r beta_l
+// log(p_rl / p_r) and h the same with beta''_r over the 4 x 4 bins that a point touches. The first
+// line of H alone is positive semidefinite: it is the second derivative of the windows, h, that
+// makes H negative definite at the maximum.
 
 namespace mivo {
 namespace {

@@ -7,7 +7,8 @@
 namespace mivo {
 namespace {
 
-// Neighbouring points say much the same: more of them do not make chance less likely.
+// min(n, this): neighbouring points say much the same: more of them do not make chance less likely.
+// The default of min_points: a level that has no more counts in full.
 constexpr double kIndependentPoints = 1500.0;
 // Eigenvalues of the correlation of the cubic B-spline windows between which intensities fall, for
 // intensities that fill the bins as those of images do: their sum and the sum of their squares grow

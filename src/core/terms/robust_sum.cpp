@@ -14,7 +14,8 @@
 namespace mivo {
 namespace {
 
-// Blocks of the image whose points err together, in a row of it.
+// Blocks of the image whose points err together, in a row of it: of 640 pixels each has 64, and
+// there are some eighty, enough for a covariance of six numbers.
 constexpr int kBlocksPerRow = 10;
 // Standard deviation of a Gaussian in medians of its magnitude.
 constexpr double kMedianToDeviation = 1.4826;

@@ -9,7 +9,8 @@
 namespace mivo {
 namespace {
 
-// A correlation of n independent pairs is chance up to a few times 1 / sqrt(n).
+// correlation * sqrt(n) > this: that of n independent pairs is chance up to a few times 1 /
+// sqrt(n).
 constexpr double kSignificance = 4.0;
 // Small enough to leave the pose to any other term.
 constexpr double kNoWeight = 1e-6;

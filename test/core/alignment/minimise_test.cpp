@@ -256,6 +256,50 @@ TEST(MinimiseTest, AnInfiniteCostStaysWhereItIs) {
   EXPECT_TRUE(nowhere.linearised_.empty());
 }
 
+/// A bowl with one number of its model replaced.
+class SpoiltTerm : public TranslationTerm {
+ public:
+  using Spoil = void (*)(QuadraticModel&, double);
+  SpoiltTerm(Spoil spoil, double value)
+      : TranslationTerm(Eigen::Matrix3d::Identity(), {0.3, 0.0, 0.0}),
+        spoil_(spoil),
+        value_(value) {}
+  QuadraticModel model() const override {
+    QuadraticModel model = TranslationTerm::model();
+    spoil_(model, value_);
+    return model;
+  }
+
+ private:
+  Spoil spoil_;
+  double value_;
+};
+
+TEST(MinimiseTest, WhatIsNotFiniteEndsWithoutAStep) {
+  const Matrix6 all = Matrix6::Identity();
+  const auto expectNoStep = [&](TranslationTerm& term, const Matrix6& pixel_motion) {
+    for (const Matrix6* free : {static_cast<const Matrix6*>(nullptr), &all}) {
+      const Minimum minimum =
+          minimise({&term}, at(0.1), 1.0, pixel_motion, freeParameters(), 1.0, 0.5, free);
+      EXPECT_EQ(minimum.T_live_ref.matrix(), at(0.1).matrix());
+      EXPECT_EQ(minimum.iterations, 0);
+      EXPECT_EQ(minimum.evaluations, 1);  // none was tried
+    }
+  };
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity(),
+        -std::numeric_limits<double>::infinity()}) {
+    Matrix6 motion = kPixelMotion;
+    motion(0, 0) = bad;
+    TranslationTerm bowl(Eigen::Matrix3d::Identity(), {0.3, 0.0, 0.0});
+    expectNoStep(bowl, motion);
+    SpoiltTerm slope([](QuadraticModel& m, double value) { m.gradient[0] = value; }, bad);
+    expectNoStep(slope, kPixelMotion);
+    SpoiltTerm curvature([](QuadraticModel& m, double value) { m.hessian(1, 1) = value; }, bad);
+    expectNoStep(curvature, kPixelMotion);
+  }
+}
+
 TEST(MinimiseTest, AStepIntoNothingIsRefused) {
   // Points leave the view beyond x = 0.3.
   LineTerm cliff(

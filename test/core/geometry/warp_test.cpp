@@ -7,6 +7,7 @@
 #include <opencv2/core.hpp>
 
 #include "support/analytic_points.h"
+#include "support/projection.h"
 #include "support/random_pose.h"
 
 namespace mivo {
@@ -53,7 +54,7 @@ TEST_F(WarpTest, SamplesAreTheImageWhereThePointsProject) {
       sample(camera, T);
       std::size_t seen = 0;
       for (std::size_t i = 0; i < points_.size(); ++i) {
-        const auto pixel = camera.project(T * testing::pointAt(points_, i));
+        const auto pixel = testing::project(camera, T * testing::pointAt(points_, i));
         if (!pixel || !isInside(*pixel, camera, 0.0)) {
           if (!pixel || !isInside(*pixel, camera, 1e-3)) {
             EXPECT_EQ(samples_.visible[i], 0.0F);
@@ -121,12 +122,12 @@ TEST_F(WarpTest, RowsAreReadAtTheirTime) {
     for (std::size_t i = 0; i < points_.size(); ++i) {
       if (samples_.visible[i] == 0.0F) continue;
       const Eigen::Vector3d q = T * testing::pointAt(points_, i);
-      const auto first = camera.project(q);
+      const auto first = testing::project(camera, q);
       if (!first) continue;
       const double tau = first->y() / camera.height - 0.5;
       const Eigen::Vector3d moved =
           q + tau * (rows.twist.tail<3>().cross(q) + rows.twist.head<3>());
-      EXPECT_NEAR(samples_.value[i], ramp(*camera.project(moved)), 3e-3);
+      EXPECT_NEAR(samples_.value[i], ramp(*testing::project(camera, moved)), 3e-3);
       ++compared;
     }
     EXPECT_GT(compared, points_.size() / 2);

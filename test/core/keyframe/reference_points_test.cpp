@@ -5,6 +5,7 @@
 
 #include "support/analytic_points.h"
 #include "support/numeric_derivative.h"
+#include "support/projection.h"
 #include "support/random_pose.h"
 
 namespace mivo {
@@ -66,7 +67,7 @@ TEST(PointDerivativesTest, AgreeWithDifferencesOfAnImageSeenThroughThePinhole) {
   for (const AnalyticImage& image : {testing::waves(), testing::blobs(), testing::litWaves()}) {
     for (const Pixel& pixel : kPixels) {
       const Camera camera = analyticCamera();
-      const Eigen::Vector3d point = random.uniform(0.5, 3.0) * camera.ray({pixel.x, pixel.y});
+      const Eigen::Vector3d point = random.uniform(0.5, 3.0) * *camera.ray({pixel.x, pixel.y});
       const testing::ImageJet jet = image({pixel.x, pixel.y});
       const Eigen::Vector2d f(camera.fx, camera.fy);
       const testing::PointDerivatives derivatives = testing::pointDerivatives(
@@ -151,7 +152,8 @@ TEST(ReferencePointsTest, PointsProjectToTheirPixelsAndKeepTheirIntensity) {
       const Pixel& pixel = kPixels[i];
       const Eigen::Vector3d point = testing::pointAt(points, i);
       EXPECT_NEAR(point.z(), testing::slopingDepth(pixel.x, pixel.y), 1e-6);
-      EXPECT_LT((*camera.project(point) - Eigen::Vector2d(pixel.x, pixel.y)).norm(), 1e-4);
+      EXPECT_LT((*testing::project(camera, point) - Eigen::Vector2d(pixel.x, pixel.y)).norm(),
+                1e-4);
       EXPECT_NEAR(points.intensity[i], image({pixel.x, pixel.y}).value, 1e-4);
       EXPECT_EQ(points.contrast[i], 1.0F);
     }
@@ -168,7 +170,9 @@ TEST(ReferencePointsTest, PixelMotionIsTheMeanSquareOfWhatAnIncrementMoves) {
       double sum = 0.0;
       for (std::size_t i = 0; i < points.size(); ++i) {
         const Eigen::Vector3d point = testing::pointAt(points, i);
-        sum += (*camera.project(testing::warped(point, d)) - *camera.project(point)).squaredNorm();
+        sum += (*testing::project(camera, testing::warped(point, d)) -
+                *testing::project(camera, point))
+                   .squaredNorm();
       }
       EXPECT_NEAR(d.dot(points.pixel_motion * d) / (sum / static_cast<double>(points.size())), 1.0,
                   1e-3);
@@ -260,7 +264,7 @@ TEST(ReferencePointsTest, DepthOfALaterTimeIsTakenWhereTheSurfaceIsThen) {
   cv::Mat depth(camera.height, camera.width, CV_32FC1);
   for (int y = 0; y < depth.rows; ++y) {
     for (int x = 0; x < depth.cols; ++x) {
-      const Eigen::Vector3d ray = camera.ray({x, y});
+      const Eigen::Vector3d ray = *camera.ray({x, y});
       depth.at<float>(y, x) =
           static_cast<float>((distance + offset * normal.dot(v)) /
                              (normal.dot(ray) - offset * normal.dot(w.cross(ray))));
@@ -273,7 +277,7 @@ TEST(ReferencePointsTest, DepthOfALaterTimeIsTakenWhereTheSurfaceIsThen) {
   double unmoved = 0.0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Pixel pixel = kPixels[i];
-    const double expected = distance / normal.dot(camera.ray({pixel.x, pixel.y}));
+    const double expected = distance / normal.dot(*camera.ray({pixel.x, pixel.y}));
     // The reading is that of the nearest pixel.
     const double half_a_pixel = 0.5 * expected * normal.head<2>().lpNorm<1>() / camera.fx;
     EXPECT_NEAR(static_cast<double>(points.z[i]), expected, 1.3 * half_a_pixel) << i;

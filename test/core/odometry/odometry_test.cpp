@@ -9,6 +9,7 @@
 
 #include "mivo/core/error.h"
 #include "support/camera_path.h"
+#include "support/projection.h"
 #include "support/random_pose.h"
 
 namespace mivo {
@@ -325,7 +326,7 @@ TEST(OdometryTest, ViewsForDisplayFitTheFrame) {
   const std::vector<CloudPoint> cloud = odometry.keyframeCloud();
   ASSERT_EQ(cloud.size(), 80U * 60U);
   const Camera& camera = walk().camera;
-  const auto pixel = camera.project({cloud[81].x, cloud[81].y, cloud[81].z});
+  const auto pixel = testing::project(camera, {cloud[81].x, cloud[81].y, cloud[81].z});
   EXPECT_LT((*pixel - Eigen::Vector2d(2.0, 2.0)).norm(), 1e-3);
   EXPECT_EQ(cloud[81].intensity, walk().frames[0].image.at<unsigned char>(2, 2));
   const cv::Mat residual = odometry.residualImage();
