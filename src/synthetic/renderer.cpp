@@ -126,11 +126,17 @@ void Renderer::prepareSurfaces() {
 
 void Renderer::prepareRays() {
   rays_.create(camera_.height, camera_.width, CV_32FC2);
+  const LensRange range = camera_.lensRange();
   for (int y = 0; y < camera_.height; ++y) {
     for (int x = 0; x < camera_.width; ++x) {
-      const Eigen::Vector3d ray = camera_.ray(Eigen::Vector2d(x, y));
+      const std::optional<Eigen::Vector3d> ray = camera_.ray(Eigen::Vector2d(x, y), range);
+      if (!ray) {
+        throw Error("camera: the distortion folds back inside of the image, at the pixel " +
+                    std::to_string(x) + ", " + std::to_string(y) +
+                    ": nothing can be rendered there; take a lens that covers the image");
+      }
       rays_.at<cv::Vec2f>(y, x) =
-          cv::Vec2f(static_cast<float>(ray.x()), static_cast<float>(ray.y()));
+          cv::Vec2f(static_cast<float>(ray->x()), static_cast<float>(ray->y()));
     }
   }
 }

@@ -18,6 +18,13 @@ struct Distortion {
   bool isZero() const;
 };
 
+/// How far from the optical axis a lens' polynomial can be used: within, each pixel has one ray.
+/// Radii in normalised coordinates; both infinite for a lens without distortion.
+struct LensRange {
+  double undistorted;  ///< of rays
+  double distorted;    ///< of pixels: (pixel - principal point) / focal length
+};
+
 /// Pinhole camera with distortion. Pixel centres lie at integer coordinates; x right, y down, z
 /// forward (optical frame, REP 103).
 struct Camera {
@@ -29,7 +36,8 @@ struct Camera {
   double cy = 0.0;
   Distortion distortion;
 
-  /// Throws Error when a size or focal length is not positive, or a number is not finite.
+  /// Throws Error when a size or focal length is not positive, a number is not finite, or the
+  /// lens' polynomial folds back in the inner half of the image.
   void validate() const;
 
   /// The camera of pyramid level `level` (0: this one). Levels are reduced by a Gaussian that keeps
@@ -37,16 +45,19 @@ struct Camera {
   /// one, so focal lengths and principal point halve exactly, with no half pixel added.
   Camera atLevel(int level) const;
 
-  /// Pixel of a point in the optical frame, metres; nothing for a point behind the camera or so far
-  /// outside that the distortion polynomial is not valid. The pixel may lie outside of the image.
-  std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& point) const;
+  /// Up to where the lens is used: the image's corners and at least a tenth more, or where the
+  /// polynomial comes near to folding back, if that is nearer.
+  LensRange lensRange() const;
 
-  /// Point at depth 1 m that projects to the pixel.
-  Eigen::Vector3d ray(const Eigen::Vector2d& pixel) const;
+  /// Whether the pixel lies within the range of this camera's lens.
+  bool hasRay(const Eigen::Vector2d& pixel, const LensRange& range) const;
 
-  /// Largest squared radius (normalised, undistorted) at which the distortion is used: that of the
-  /// image's corners and a tenth more, or where the polynomial turns back if that comes first.
-  double maxSquaredRadius() const;
+  /// Point at depth 1 m that projects to the pixel; nothing for a pixel outside of the lens' range.
+  std::optional<Eigen::Vector3d> ray(const Eigen::Vector2d& pixel) const;
+
+  /// The same for many pixels: the range is found once. @param range lensRange() of this camera or
+  /// of another level of it.
+  std::optional<Eigen::Vector3d> ray(const Eigen::Vector2d& pixel, const LensRange& range) const;
 
   /// Distorted from undistorted normalised coordinates, and the derivative.
   Eigen::Vector2d distort(const Eigen::Vector2d& undistorted,

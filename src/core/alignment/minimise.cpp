@@ -35,7 +35,8 @@ Eigen::Isometry3d moved(const Eigen::Isometry3d& T_live_ref, const Vector6& step
 /// Leaves of a step what lies in the free directions.
 void hold(const QuadraticModel& model, const Matrix6& free, NewtonStep& newton) {
   newton.step = free * newton.step;
-  newton.promised_gain = std::max(0.0, -model.gradient.dot(newton.step));
+  const double gain = -model.gradient.dot(newton.step);
+  newton.promised_gain = gain < 0.0 ? 0.0 : gain;  // what is not a number stays so
 }
 
 }  // namespace
@@ -58,7 +59,10 @@ Minimum minimise(const std::vector<CostTerm*>& terms, const Eigen::Isometry3d& T
     // Half the slope is what a quadratic cost would gain; without this test the last iteration
     // would spend all its halvings on nothing.
     const double enough = tolerance * parameters.alignment.min_cost_change * std::abs(model.cost);
-    const double pixels = std::sqrt(std::max(0.0, newton.step.dot(pixel_motion * newton.step)));
+    const double squared_pixels = newton.step.dot(pixel_motion * newton.step);
+    // A number that is not finite is nothing to step by, nor may max() make a zero of it.
+    if (!std::isfinite(squared_pixels) || !std::isfinite(newton.promised_gain)) break;
+    const double pixels = std::sqrt(std::max(0.0, squared_pixels));
     if (0.5 * newton.promised_gain <= enough || !(pixels > 0.0)) break;
 
     if (newton.is_convex && pixels < trusted_step_pixels) {

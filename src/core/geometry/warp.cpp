@@ -10,7 +10,7 @@ namespace mivo {
 Warp::Warp(const Camera& camera, const RowMotion& rows, int threads)
     : camera_(camera),
       rows_(rows),
-      max_squared_radius_(static_cast<float>(camera.maxSquaredRadius())),
+      max_radius_(static_cast<float>(camera.lensRange().undistorted)),
       threads_(threads) {}
 
 kernels::WarpParameters Warp::parameters(const Eigen::Isometry3d& T_live_ref) const {
@@ -36,7 +36,7 @@ kernels::WarpParameters Warp::parameters(const Eigen::Isometry3d& T_live_ref) co
   p.p1 = static_cast<float>(camera_.distortion.p1);
   p.p2 = static_cast<float>(camera_.distortion.p2);
   p.k3 = static_cast<float>(camera_.distortion.k3);
-  p.max_squared_radius = max_squared_radius_;
+  p.max_squared_radius = max_radius_ * max_radius_;
   p.right = static_cast<float>(camera_.width - 1);
   p.bottom = static_cast<float>(camera_.height - 1);
   return p;

@@ -55,7 +55,7 @@ class Warp {
 
   Camera camera_;
   RowMotion rows_;
-  float max_squared_radius_;
+  float max_radius_;  // of undistorted normalised coordinates
   int threads_;
 };
 

@@ -46,7 +46,7 @@ struct ColumnSums {
 /// camera with a lens they are costly, and the camera stays the same.
 struct PatchRays {
   Camera camera;
-  std::vector<Eigen::Vector3d> ray;  // row by row
+  std::vector<Eigen::Vector3d> ray;  // row by row; zero where the lens has none
   std::vector<Eigen::Matrix2d> scale;
 };
 
@@ -65,9 +65,10 @@ void findRays(const Camera& camera, PatchRays& rays) {
   rays.camera = camera;
   rays.ray.clear();
   rays.scale.clear();
+  const LensRange range = camera.lensRange();
   for (int y = kRadius; y + kRadius < camera.height; y += kStep) {
     for (int x = kRadius; x + kRadius < camera.width; x += kStep) {
-      rays.ray.push_back(camera.ray({x, y}));
+      rays.ray.push_back(camera.ray({x, y}, range).value_or(Eigen::Vector3d::Zero()));
       Eigen::Matrix2d scale = Eigen::Matrix2d::Identity();
       if (!camera.distortion.isZero()) camera.distort(rays.ray.back().head<2>(), &scale);
       rays.scale.emplace_back(Eigen::Vector2d(camera.fx, camera.fy).asDiagonal() * scale);
@@ -132,7 +133,8 @@ bool fitPlane(const ColumnSums& columns, int x, Plane& plane) {
   return rest <= kPatchSize * bound * bound;                               // false for NaN
 }
 
-/// Point and normal of a plane in the optical frame; false when it is seen too flatly.
+/// Point and normal of a plane in the optical frame; false when it is seen too flatly, or by a
+/// pixel without a ray.
 bool toPatch(const Plane& plane, const Eigen::Vector3d& ray, const Eigen::Matrix2d& scale,
              Patch& patch) {
   // 1/z = centre + g . (m - m0) in normalised coordinates m, hence g . (X, Y) + c Z = 1.
@@ -221,15 +223,6 @@ void findPatches(const cv::Mat& depth, const Camera& camera, const RowMotion& ro
   }
 }
 
-float medianOf(const std::vector<float>& values) {
-  if (values.empty()) return 1.0F;
-  Recycled<std::vector<float>> copy;
-  *copy = values;
-  const auto middle = copy->begin() + static_cast<std::ptrdiff_t>(copy->size() / 2);
-  std::nth_element(copy->begin(), middle, copy->end());
-  return *middle;
-}
-
 }  // namespace
 
 void makeGeometricPoints(const cv::Mat& depth, const Camera& camera, const RowMotion& rows,
@@ -252,7 +245,6 @@ void makeGeometricPoints(const cv::Mat& depth, const Camera& camera, const RowMo
     points.nz[i] = static_cast<float>(chosen[i].normal.z());
     points.weight[i] = 1.0F / depthDeviation(points.z[i]);
   }
-  points.median_depth = medianOf(points.z);
 }
 
 }  // namespace mivo

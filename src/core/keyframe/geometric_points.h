@@ -22,7 +22,6 @@ struct GeometricPoints {
   std::vector<float> x, y, z;     ///< m, optical frame of the keyframe, at its middle row
   std::vector<float> nx, ny, nz;  ///< unit normal
   std::vector<float> weight;      ///< 1 / standard deviation of a reading there, 1/m
-  float median_depth = 1.0F;      ///< m; 1 when there are no points
 
   std::size_t size() const { return x.size(); }
 };

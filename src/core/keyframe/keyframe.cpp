@@ -28,25 +28,34 @@ void selectPoints(const cv::Mat& image, const cv::Mat& depth, bool is_coarsest, 
   points.num_leading = selectSalient(image, depth, limits, points.pixels);
 }
 
-template <typename Value>
-void leaveOutAbove(const cv::Mat& image, Value limit, ReferencePoints& points) {
-  const auto stride = static_cast<std::ptrdiff_t>(image.step1());
+/// Keeps the pixels that `is_kept` is true for.
+template <typename Condition>
+void keepPixels(const Condition& is_kept, ReferencePoints& points) {
   std::size_t count = 0;
   std::size_t num_leading = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Pixel pixel = points.pixels[i];
+    const std::size_t one = is_kept(pixel) ? 1U : 0U;  // no branch: nothing foresees it
+    points.pixels[count] = pixel;
+    count += one;
+    num_leading += i < points.num_leading ? one : 0U;
+  }
+  points.pixels.resize(count);
+  points.num_leading = num_leading;
+}
+
+template <typename Value>
+void leaveOutAbove(const cv::Mat& image, Value limit, ReferencePoints& points) {
+  const auto stride = static_cast<std::ptrdiff_t>(image.step1());
+  const auto isBelow = [&](const Pixel& pixel) {
     const Value* row = image.ptr<Value>(pixel.y) + pixel.x - stride;
     Value highest = row[0];
     for (int y = 0; y < 3; ++y, row += stride) {
       highest = std::max({highest, row[-1], row[0], row[1]});
     }
-    const std::size_t is_kept = highest < limit ? 1U : 0U;  // no branch: nothing foresees it
-    points.pixels[count] = pixel;
-    count += is_kept;
-    num_leading += i < points.num_leading ? is_kept : 0U;
-  }
-  points.pixels.resize(count);
-  points.num_leading = num_leading;
+    return highest < limit;
+  };
+  keepPixels(isBelow, points);
 }
 
 /// Pixels with a neighbour that may be clipped: their gradient is not that of the scene.
@@ -58,6 +67,18 @@ void leaveOutSaturated(const cv::Mat& image, double saturation, ReferencePoints&
   } else {
     leaveOutAbove(image, static_cast<float>(saturation), points);
   }
+}
+
+/// Pixels without a ray, in the corners of an image whose lens' polynomial folds back there.
+void leaveOutOfLens(const Camera& camera, ReferencePoints& points) {
+  const LensRange range = camera.lensRange();
+  const double right = camera.width - 1.0;
+  const double bottom = camera.height - 1.0;
+  const auto hasRay = [&](double x, double y) { return camera.hasRay({x, y}, range); };
+  if (hasRay(0.0, 0.0) && hasRay(right, 0.0) && hasRay(0.0, bottom) && hasRay(right, bottom)) {
+    return;  // the usual lens
+  }
+  keepPixels([&](const Pixel& pixel) { return hasRay(pixel.x, pixel.y); }, points);
 }
 
 }  // namespace
@@ -114,9 +135,11 @@ void Keyframe::finish(const FramePyramid& frame, const Camera& camera,
     const ReferenceImage image{
         uses_mi ? frame.miImage(l) : frame.grey(l),
         !uses_mi && frame.isNormalised() ? &frame.contrast().level(l) : nullptr};
+    const Camera level_camera = camera.atLevel(l);
     level.points.level = l;
-    makeReferencePoints(image, {depth_pyramid_.level(l), shutter_.depth_offset}, camera.atLevel(l),
-                        rows, uses_mi, level.points);
+    leaveOutOfLens(level_camera, level.points);
+    makeReferencePoints(image, {depth_pyramid_.level(l), shutter_.depth_offset}, level_camera, rows,
+                        uses_mi, level.points);
     if (uses_mi) {
       makeMiReference(level.points, frame.miRange(l), parameters, level.mi);
     }

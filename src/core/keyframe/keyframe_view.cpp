@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/keyframe/keyframe_view.h"
 
+#include <optional>
+
 #include "core/geometry/warp.h"
 
 namespace mivo {
@@ -8,29 +10,24 @@ namespace {
 
 constexpr int kStride = 2;
 
-std::vector<Pixel> pixelsWithDepth(const cv::Mat& depth) {
-  std::vector<Pixel> pixels;
+/// Points of the pixels, every second one, that have depth and a ray.
+ReferencePoints pointsOf(const Keyframe& keyframe, const Camera& camera) {
+  const LensRange range = camera.lensRange();
+  const cv::Mat& depth = keyframe.depth();
+  ReferencePoints points;
   for (int y = 0; y < depth.rows; y += kStride) {
     const auto* row = depth.ptr<float>(y);
     for (int x = 0; x < depth.cols; x += kStride) {
-      if (row[x] > 0.0F) pixels.push_back({x, y});
+      if (!(row[x] > 0.0F)) continue;
+      const std::optional<Eigen::Vector3d> ray = camera.ray({x, y}, range);
+      if (!ray) continue;
+      const Eigen::Vector3d point = static_cast<double>(row[x]) * *ray;
+      points.pixels.push_back({x, y});
+      points.x.push_back(static_cast<float>(point.x()));
+      points.y.push_back(static_cast<float>(point.y()));
+      points.z.push_back(static_cast<float>(point.z()));
+      points.intensity.push_back(static_cast<float>(keyframe.image().at<unsigned char>(y, x)));
     }
-  }
-  return pixels;
-}
-
-ReferencePoints pointsAt(const std::vector<Pixel>& pixels, const Keyframe& keyframe,
-                         const Camera& camera) {
-  ReferencePoints points;
-  points.pixels = pixels;
-  for (const Pixel& pixel : pixels) {
-    const double z = static_cast<double>(keyframe.depth().at<float>(pixel.y, pixel.x));
-    const Eigen::Vector3d point = z * camera.ray({pixel.x, pixel.y});
-    points.x.push_back(static_cast<float>(point.x()));
-    points.y.push_back(static_cast<float>(point.y()));
-    points.z.push_back(static_cast<float>(point.z()));
-    points.intensity.push_back(
-        static_cast<float>(keyframe.image().at<unsigned char>(pixel.y, pixel.x)));
   }
   return points;
 }
@@ -38,7 +35,7 @@ ReferencePoints pointsAt(const std::vector<Pixel>& pixels, const Keyframe& keyfr
 }  // namespace
 
 std::vector<CloudPoint> makeCloud(const Keyframe& keyframe, const Camera& camera) {
-  const ReferencePoints points = pointsAt(pixelsWithDepth(keyframe.depth()), keyframe, camera);
+  const ReferencePoints points = pointsOf(keyframe, camera);
   std::vector<CloudPoint> cloud;
   cloud.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -49,7 +46,7 @@ std::vector<CloudPoint> makeCloud(const Keyframe& keyframe, const Camera& camera
 
 cv::Mat makeResidualImage(const Keyframe& keyframe, const cv::Mat& live, const Camera& camera,
                           const Eigen::Isometry3d& T_live_ref) {
-  const ReferencePoints points = pointsAt(pixelsWithDepth(keyframe.depth()), keyframe, camera);
+  const ReferencePoints points = pointsOf(keyframe, camera);
   LiveSamples samples;
   Warp(camera, RowMotion{}, 1).sample(points, points.size(), T_live_ref, live, samples);
   cv::Mat result((camera.height + 1) / kStride, (camera.width + 1) / kStride, CV_8UC1,
