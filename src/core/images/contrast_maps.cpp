@@ -77,7 +77,8 @@ double estimateNoise(const cv::Mat& image) {
 
 void ContrastMaps::build(const ImagePyramid& pyramid, int num_levels) {
   maps_.resize(static_cast<std::size_t>(num_levels));
-  double noise = estimateNoise(pyramid.level(0));
+  noise_ = estimateNoise(pyramid.level(0));
+  double noise = noise_;
   for (int l = 0; l < num_levels; ++l) {
     ContrastMap& map = maps_[static_cast<std::size_t>(l)];
     const cv::Mat& reduced = pyramid.level(l + 2);

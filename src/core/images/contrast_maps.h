@@ -31,7 +31,11 @@ class ContrastMaps {
 
   const ContrastMap& level(int level) const { return maps_[static_cast<std::size_t>(level)]; }
 
+  /// Standard deviation of the noise on level 0, grey levels.
+  double noise() const { return noise_; }
+
  private:
+  double noise_ = 0.0;
   std::vector<ContrastMap> maps_;
   std::vector<float> scratch_;
 };
