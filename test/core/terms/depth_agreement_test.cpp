@@ -7,6 +7,7 @@
 
 #include "support/agreement_statistics.h"
 #include "support/numeric_derivative.h"
+#include "support/projection.h"
 #include "support/random_pose.h"
 #include "support/scene.h"
 
@@ -50,7 +51,7 @@ class DepthAgreementTest : public ::testing::Test {
     for (std::size_t i = 0; i < n; ++i) {
       const Eigen::Vector3d X =
           Eigen::Vector3f(points_.x[i], points_.y[i], points_.z[i]).cast<double>();
-      const auto pixel = camera_.project(T_live_ref * X);
+      const auto pixel = testing::project(camera_, T_live_ref * X);
       if (!pixel || pixel->x() < 0.0 || pixel->y() < 0.0 || pixel->x() >= camera_.width - 1 ||
           pixel->y() >= camera_.height - 1) {
         continue;

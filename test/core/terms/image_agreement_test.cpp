@@ -8,6 +8,7 @@
 #include "support/agreement_statistics.h"
 #include "support/analytic_points.h"
 #include "support/numeric_derivative.h"
+#include "support/projection.h"
 #include "support/random_pose.h"
 
 namespace mivo {
@@ -61,13 +62,13 @@ TEST_F(ImageAgreementTest, LiveDerivativesAreThoseOfTheWarpedLiveImage) {
     Agreement expected;
     for (std::size_t i = 0; i < points_.size(); ++i) {
       const Eigen::Vector3d point = testing::pointAt(points_, i);
-      const auto pixel = camera_.project(T * point);
+      const auto pixel = testing::project(camera_, T * point);
       if (!pixel || pixel->x() < 1.0 || pixel->y() < 1.0 || pixel->x() >= camera_.width - 2 ||
           pixel->y() >= camera_.height - 2) {
         continue;
       }
       const auto brightness = [&](const Vector6& d) {
-        return image(*camera_.project(T * testing::warped(point, d))).value;
+        return image(*testing::project(camera_, T * testing::warped(point, d))).value;
       };
       expected.add(keyframeDerivative(i),
                    testing::numericGradient<6>(brightness, Vector6::Zero(), 1e-5));
