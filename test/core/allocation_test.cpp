@@ -62,7 +62,7 @@ TEST(AllocationTest, AFrameAllocatesNothingOnceTheBuffersHaveGrown) {
       parameters.keyframes.keyframe_translation = 0.02;
       parameters.shutter.depth_time_offset_estimation = true;
       int keyframes = 0;
-      EXPECT_EQ(allocationsOfLastWalk(recording, parameters, 24, keyframes), 0U)
+      EXPECT_EQ(allocationsOfLastWalk(recording, parameters, 60, keyframes), 0U)
           << "method " << static_cast<int>(method) << ", model " << static_cast<int>(model);
       EXPECT_GE(keyframes, 2) << "keyframes are to be among the frames";
     }

@@ -18,8 +18,11 @@ constexpr int kShutterLevel = 1;
 // The pixels of a level share what light, blur and depth err: mutual information counts about so
 // many times what it knows.
 constexpr double kMiCountsTimes = 8.0;
-// Noise of an image that nobody has measured, grey levels.
-constexpr double kUsualNoise = 2.0;
+// Gradients of noise, grey levels per pixel: of a smoothed image a quarter of its noise, and up to
+// four times that at points that were chosen for being strong, but not below what rounding and
+// compression leave; of one that is compared as it is about so many.
+constexpr double kLeastNoiseGradient = 1.0;
+constexpr double kUsualNoiseGradient = 4.0;
 // Coarser levels blur away what could be seen.
 constexpr int kCoarsestAsked = 2;
 // Where few points have led the way all of them have one short step left, and need not try it.
@@ -143,10 +146,12 @@ void LevelAligner::holdOpenDirections(const SsdTerm* intensities, bool has_prior
       curvatures.push_back(LevelAligner(task_, l, parameters_, there, record).imageCurvature());
     }
   };
-  mivo::holdOpenDirections(
-      {*terms_, has_prior, intensities, points_, warp_.camera(), add_coarser, task_.expected,
-       task_.live.isNormalised() ? task_.live.contrast().noise() : kUsualNoise},
-      parameters_, alignment_);
+  const double noise_gradient = task_.live.isNormalised()
+                                    ? std::max(kLeastNoiseGradient, task_.live.contrast().noise())
+                                    : kUsualNoiseGradient;
+  mivo::holdOpenDirections({*terms_, has_prior, intensities, points_, warp_.camera(), add_coarser,
+                            task_.expected, noise_gradient},
+                           parameters_, alignment_);
 }
 
 TermCurvature LevelAligner::imageCurvature() {

@@ -15,11 +15,6 @@ namespace {
 // What interpolation, blur and the keyframe's depth leave of systematic error, pixels: all points
 // err alike, so that no residual shows it.
 constexpr double kModelErrorPixels = 0.05;
-// A direction along which the keyframe's image changes by less than noise does from pixel to pixel,
-// or than rounding and compression may, could show nothing else, grey levels per pixel. Smoothed,
-// an image's gradients have a quarter of its noise; chosen for being strong, up to twice that.
-constexpr double kNoiseGradient = 1.0;  // per grey level of noise
-constexpr double kLeastGradient = 1.0;
 // So many points tell in a tenth of a millisecond what most views show.
 constexpr std::size_t kPointsAtFirst = 1024;
 // What robust weights leave of a sum of squares, about.
@@ -44,14 +39,13 @@ std::array<bool, 6> directionsInDoubt(const Observability& seen, const FinishedD
   }
   Vector6 scale = Vector6::Ones();
   scale.head<3>().setConstant(static_cast<double>(descent.points.median_depth));
-  const double noise_gradient = std::max(kLeastGradient, kNoiseGradient * descent.noise);
   const double residual = descent.image->scale();
   const double per_curvature =
       residual * residual / (kMeanWeight * static_cast<double>(descent.points.size()));
   for (int i = 0; i < 6; ++i) {
     const double pixels = pixelsOf(scale.cwiseProduct(seen.axes().col(i)), descent.points);
     const double gradient = std::sqrt(std::max(0.0, seen.curvature()[i]) * per_curvature);
-    if (!(gradient > noise_gradient * pixels)) doubt.fill(true);
+    if (!(gradient > descent.noise_gradient * pixels)) doubt.fill(true);
   }
   return doubt;
 }

@@ -26,7 +26,9 @@ struct FinishedDescent {
   std::function<void(const Eigen::Isometry3d& T_live_ref, std::vector<TermCurvature>& curvatures)>
       add_coarser;
   const PoseExpectation& expected;
-  double noise = 0.0;  ///< of the live image, grey levels
+  /// A direction along which the keyframe's image changes by less, grey levels per pixel, could
+  /// show nothing but noise.
+  double noise_gradient = 0.0;
 };
 
 /// Finds the directions that the terms leave open, holds the pose in them where it is expected, and
