@@ -23,9 +23,10 @@ TEST(CameraFileTest, CameraComesBackExactly) {
 
 TEST(CameraFileTest, ReadsTheFieldsInTheirOrder) {
   const TemporaryFolder folder;
-  const SequenceCamera camera = readCamera(
-      folder.write("camera.txt", "# comment\n640 480 1 2 3 4 5000 0.1 0.2 0.03 0.04 0.5\n"));
-  EXPECT_TRUE(camera.camera == (Camera{640, 480, 1, 2, 3, 4, {0.1, 0.2, 0.03, 0.04, 0.5}}));
+  const SequenceCamera camera = readCamera(folder.write(
+      "camera.txt", "# comment\n640 480 501 502 303 204 5000 0.01 0.02 0.003 0.004 0.05\n"));
+  EXPECT_TRUE(camera.camera ==
+              (Camera{640, 480, 501, 502, 303, 204, {0.01, 0.02, 0.003, 0.004, 0.05}}));
   EXPECT_EQ(camera.depth_units_per_metre, 5000.0);
 }
 

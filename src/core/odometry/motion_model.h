@@ -39,7 +39,8 @@ class MotionModel {
   /// Expresses the poses in another world: T_new_old.
   void transform(const Eigen::Isometry3d& T_new_old);
 
-  bool hasPose() const { return has_pose_; }
+  /// Whether two poses have been added since the start, or since stop().
+  bool hasVelocity() const { return has_velocity_; }
 
   /// Expected pose at a stamp. The given pose before two have been added.
   Eigen::Isometry3d predict(double stamp, const Eigen::Isometry3d& last, const FrameClock& clock,

@@ -26,8 +26,9 @@ AlignmentTask taskFor(const SearchInput& input, const Prediction& prediction,
   task.expected.T_live_ref = prediction.T_odom_camera.inverse() * keyframe.T_odom_keyframe;
   task.expected.covariance = prediction.covariance;
   task.expected.keyframe_covariance = keyframe.covariance;
-  task.holds_coarse_levels =
-      is_connected && attempt.is_expected && input.parameters.motion.hold_coarse_levels;
+  task.holds_coarse_levels = is_connected && attempt.is_expected &&
+                             input.state.motion.hasVelocity() &&
+                             input.parameters.motion.hold_coarse_levels;
   return task;
 }
 
@@ -61,7 +62,10 @@ std::optional<Sight> recover(const SearchInput& input, const Prediction& predict
   for (const RecoveryAttempt& attempt : recoveryAttempts(
            input.keyframes, state.T_odom_camera, prediction.T_odom_camera, state.lost_in_a_row)) {
     const Sight sight = look(input, prediction, attempt);
-    if (isBelievable(sight) && isConvincing(sight.alignment, input.parameters.loss)) return sight;
+    if (isBelievable(sight) && isConvincing(sight.alignment, input.parameters.loss) &&
+        !sight.alignment.has_open_directions) {
+      return sight;
+    }
   }
   return std::nullopt;
 }
