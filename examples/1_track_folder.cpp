@@ -21,13 +21,13 @@ int main(int argc, char** argv) {
     mivo::Odometry odometry(reader.camera(), parameters);
 
     mivo::Frame frame;
-    std::string fault;
+    mivo::FrameFault fault;
     int poses = 0;
     while (true) {
       const mivo::FrameSource::Status status = reader.next(frame, fault);
       if (status == mivo::FrameSource::Status::kEnd) break;
       if (status == mivo::FrameSource::Status::kSkipped) {
-        std::cerr << "skipped: " << fault << "\n";
+        std::cerr << "skipped: " << fault.text << "\n";
         continue;
       }
       // The pose of the colour camera in the world, which is the first camera's pose.
