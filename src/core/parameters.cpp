@@ -246,7 +246,8 @@ bool actWithKeyframe(const Parameters& before, const Parameters& after) {
 Parameters withLiveParameters(const Parameters& before, const Parameters& after) {
   Parameters result = before;
   for (const ParameterInfo& info : parameterTable()) {
-    if (info.update == Update::kLive) setParameter(result, info.name, getParameter(after, info.name));
+    if (info.update == Update::kLive)
+      setParameter(result, info.name, getParameter(after, info.name));
   }
   return result;
 }

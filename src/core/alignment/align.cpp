@@ -38,7 +38,8 @@ Alignment align(const AlignmentTask& task, const Parameters& parameters) {
   Alignment alignment;
   alignment.T_live_ref = task.T_live_ref;
   judgeContrast(task, parameters, alignment);
-  for (int l = task.keyframe.numLevels() - 1; l >= 0; --l) {
+  const int coarsest = std::max(0, task.keyframe.numLevels() - 1 - task.skipped_levels);
+  for (int l = coarsest; l >= 0; --l) {
     LevelRecord& record = alignment.levels[static_cast<std::size_t>(alignment.num_levels++)];
     LevelAligner(task, l, parameters, alignment, record).run();
   }

@@ -54,6 +54,7 @@ struct AlignmentTask {
   /// Whether it also holds it where a coarse level sees little. Not when the camera is looked for
   /// elsewhere than expected.
   bool holds_coarse_levels = false;
+  int skipped_levels = 0;  ///< of the coarsest, to be left out
 };
 
 /// Result of aligning one frame with a keyframe.

@@ -24,6 +24,7 @@ RecoveryAttempts recoveryAttempts(const KeyframeStore& keyframes,
     attempts.add({0, T_odom_predicted});
     attempts.add({0, orthonormalised(T_odom_last * expSe3(0.5 * motion))});
   }
+  attempts.add({0, T_odom_last, false, 1});
   const std::size_t older = keyframes.size() - 1;
   const std::size_t first = kOlderPerFrame * static_cast<std::size_t>(lost_in_a_row);
   for (std::size_t i = 0; i < std::min(older, kOlderPerFrame); ++i) {
