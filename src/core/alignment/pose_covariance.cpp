@@ -7,8 +7,10 @@
 namespace mivo {
 namespace {
 
+// m and rad: larger than what a camera does while a few frames are lost, small enough for filters.
 constexpr double kGuessTranslation = 1.0;
 constexpr double kGuessRotation = 1.0;
+// m and rad: below what any alignment knows, far above the rounding of a 6 x 6 inverse.
 constexpr double kFloorTranslation = 1e-5;
 constexpr double kFloorRotation = 1e-5;
 

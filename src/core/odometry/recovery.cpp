@@ -8,6 +8,7 @@
 namespace mivo {
 namespace {
 
+// A lost frame takes at most six alignments; four kept keyframes have had their turn in two frames.
 constexpr std::size_t kOlderPerFrame = 2;
 // Shorter motion leads nowhere else: m and rad.
 constexpr double kStandingStill = 1e-6;
