@@ -14,8 +14,8 @@ namespace {
 mivo::Frame readFrame(const std::string& folder, std::size_t number) {
   mivo::SequenceReader reader(folder, mivo::FrameRange{number, 1});
   mivo::Frame frame;
-  std::string fault;
-  if (reader.next(frame, fault) != mivo::FrameSource::Status::kFrame) throw mivo::Error(fault);
+  mivo::FrameFault fault;
+  if (reader.next(frame, fault) != mivo::FrameSource::Status::kFrame) throw mivo::Error(fault.text);
   return frame;
 }
 
