@@ -2,6 +2,7 @@
 #include "core/terms/image_agreement.h"
 
 #include <algorithm>
+#include <array>
 
 #include "core/execution/recycled.h"
 #include "core/images/pixel_access.h"
@@ -18,9 +19,33 @@ struct Neighbour {
   std::vector<float> u, v, visible, value;
 };
 
+/// The eight pixels around one.
+enum Place { kLeft, kRight, kAbove, kBelow, kUpLeft, kUpRight, kDownLeft, kDownRight, kPlaces };
+constexpr float kColumnOf[kPlaces] = {-1, 1, 0, 0, -1, 1, -1, 1};
+constexpr float kRowOf[kPlaces] = {0, 0, -1, 1, -1, -1, 1, 1};
+
 struct Workspace {
   std::vector<std::size_t> index;
-  Neighbour left, right, above, below;
+  std::array<Neighbour, kPlaces> around;
+
+  bool isSeen(std::size_t k) const {
+    return std::all_of(around.begin(), around.end(),
+                       [k](const Neighbour& place) { return place.visible[k] != 0.0F; });
+  }
+
+  /// Central differences, smoothed across by (1, 4, 1) / 6: of an oblique edge they point across
+  /// it, however sharp it is. Those of the keyframe do not quite, and what two images have in
+  /// common by that would pass for something to see along the edge.
+  Eigen::Vector2d gradient(std::size_t k) const {
+    const auto value = [&](Place place) {
+      return static_cast<double>(around[static_cast<std::size_t>(place)].value[k]);
+    };
+    const double right = value(kUpRight) + 4.0 * value(kRight) + value(kDownRight);
+    const double left = value(kUpLeft) + 4.0 * value(kLeft) + value(kDownLeft);
+    const double below = value(kDownLeft) + 4.0 * value(kBelow) + value(kDownRight);
+    const double above = value(kUpLeft) + 4.0 * value(kAbove) + value(kUpRight);
+    return {(right - left) / 12.0, (below - above) / 12.0};
+  }
 };
 
 void sample(const LiveImage& image, const Workspace& work, const LiveSamples& samples, float du,
@@ -82,22 +107,14 @@ Agreement imageAgreement(const ReferencePoints& points, const LiveImage& image,
   for (std::size_t i = 0; i < visible.size(); i += stride) {
     if (visible[i] != 0.0F) work->index.push_back(i);
   }
-  sample(image, *work, samples, -1.0F, 0.0F, work->left);
-  sample(image, *work, samples, 1.0F, 0.0F, work->right);
-  sample(image, *work, samples, 0.0F, -1.0F, work->above);
-  sample(image, *work, samples, 0.0F, 1.0F, work->below);
+  for (std::size_t place = 0; place < kPlaces; ++place) {
+    sample(image, *work, samples, kColumnOf[place], kRowOf[place], work->around[place]);
+  }
   Agreement agreement;
   for (std::size_t k = 0; k < work->index.size(); ++k) {
-    if (work->left.visible[k] * work->right.visible[k] * work->above.visible[k] *
-            work->below.visible[k] ==
-        0.0F) {
-      continue;
-    }
+    if (!work->isSeen(k)) continue;
     const std::size_t i = work->index[k];
-    const double half = 0.5 * static_cast<double>(points.contrast[i]);
-    const Eigen::Vector2d gradient(
-        half * static_cast<double>(work->right.value[k] - work->left.value[k]),
-        half * static_cast<double>(work->below.value[k] - work->above.value[k]));
+    const Eigen::Vector2d gradient = static_cast<double>(points.contrast[i]) * work->gradient(k);
     const Eigen::Vector3d point =
         Eigen::Vector3f(points.x[i], points.y[i], points.z[i]).cast<double>();
     Vector6 by_keyframe;

