@@ -84,7 +84,9 @@ void sampleNormalised(const ReferenceImage& image, const std::vector<Pixel>& pix
 void differentiate(const ReferenceImage& image, bool with_second_derivative,
                    ReferencePoints& points, Workspace& work) {
   const std::vector<Pixel>& pixels = points.pixels;
-  const std::size_t places = with_second_derivative ? kPlaces : kPlacesOfGradient;
+  const bool smooths_across = image.contrast != nullptr;
+  const std::size_t places =
+      smooths_across || with_second_derivative ? kPlaces : kPlacesOfGradient;
   if (image.contrast != nullptr) {
     sampleNormalised(image, pixels, places, work);
   } else if (image.grey.type() == CV_8UC1) {
@@ -98,8 +100,17 @@ void differentiate(const ReferenceImage& image, bool with_second_derivative,
         image.contrast != nullptr ? localContrast(*image.contrast, pixels[i].x, pixels[i].y) : 1.0F;
     points.contrast[i] = contrast;
     points.intensity[i] = contrast * value[kHere][i];
-    work.gradient_u[i] = contrast * 0.5F * (value[kRight][i] - value[kLeft][i]);
-    work.gradient_v[i] = contrast * 0.5F * (value[kBelow][i] - value[kAbove][i]);
+    if (smooths_across) {
+      const float down = value[kDownRight][i] - value[kUpLeft][i];
+      const float up = value[kUpRight][i] - value[kDownLeft][i];
+      work.gradient_u[i] =
+          contrast / 12.0F * (4.0F * (value[kRight][i] - value[kLeft][i]) + down + up);
+      work.gradient_v[i] =
+          contrast / 12.0F * (4.0F * (value[kBelow][i] - value[kAbove][i]) + down - up);
+    } else {
+      work.gradient_u[i] = contrast * 0.5F * (value[kRight][i] - value[kLeft][i]);
+      work.gradient_v[i] = contrast * 0.5F * (value[kBelow][i] - value[kAbove][i]);
+    }
     if (!with_second_derivative) continue;
     const float twice = 2.0F * value[kHere][i];
     work.curvature_uu[i] = contrast * (value[kRight][i] - twice + value[kLeft][i]);
