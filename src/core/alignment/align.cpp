@@ -26,7 +26,9 @@ void judgeContrast(const AlignmentTask& task, const Parameters& parameters, Alig
 Matrix6 PoseExpectation::incrementCovariance() const {
   if (!is_known) return guessCovariance();
   const Matrix6 to_increment = adjoint(T_live_ref.inverse());
-  return positivePart(to_increment * covariance * to_increment.transpose() - keyframe_covariance);
+  const Matrix6 before = to_increment * (covariance - drift) * to_increment.transpose();
+  return positivePart(before - keyframe_covariance) +
+         to_increment * drift * to_increment.transpose();
 }
 
 Matrix6 PoseExpectation::cameraCovariance() const {

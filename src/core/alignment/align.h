@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <array>
 
+#include "core/alignment/pose_covariance.h"
 #include "core/geometry/row_motion.h"
 #include "core/images/frame_pyramid.h"
 #include "core/keyframe/keyframe.h"
@@ -24,6 +25,9 @@ struct PoseExpectation {
   /// m and rad, in one world.
   Matrix6 covariance = Matrix6::Identity();
   Matrix6 keyframe_covariance = Matrix6::Zero();
+  /// What the camera may have gone astray since the frame before, in its axes: it is in the
+  /// covariance, and is not known better for what is known of the keyframe.
+  Matrix6 drift = floorCovariance();
 
   /// Of the pose against the keyframe, whose own error is in both: in the axes of the expected
   /// camera, and as that of the increment.

@@ -23,8 +23,6 @@ constexpr double kMiCountsTimes = 8.0;
 // compression leave; of one that is compared as it is about so many.
 constexpr double kLeastNoiseGradient = 1.0;
 constexpr double kUsualNoiseGradient = 4.0;
-// Coarser levels blur away what could be seen.
-constexpr int kCoarsestAsked = 2;
 // Where few points have led the way all of them have one short step left, and need not try it.
 constexpr double kLastTolerance = 4.0;
 
@@ -142,7 +140,7 @@ void LevelAligner::holdOpenDirections(const SsdTerm* intensities, bool has_prior
     Alignment there = alignment_;
     there.T_live_ref = T_live_ref;
     LevelRecord record;
-    for (int l = 1; l <= std::min(kCoarsestAsked, task_.keyframe.numLevels() - 1); ++l) {
+    for (int l = 1; l <= std::min(kCoarsestAskedLevel, task_.keyframe.numLevels() - 1); ++l) {
       curvatures.push_back(LevelAligner(task_, l, parameters_, there, record).imageCurvature());
     }
   };
@@ -156,7 +154,8 @@ void LevelAligner::holdOpenDirections(const SsdTerm* intensities, bool has_prior
 
 TermCurvature LevelAligner::imageCurvature() {
   const auto curvatureOf = [&](CostTerm& term) {
-    return TermCurvature{term.linearise(kScaleIsKept).hessian, term.agreement(points_.size())};
+    return TermCurvature{term.linearise(kScaleIsKept).hessian, term.agreement(points_.size()),
+                         kLeastAgreementAbove};
   };
   if (record_.mutual_information) {
     MiTerm term = miTerm();

@@ -5,6 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 namespace mivo {
 namespace {
@@ -17,49 +18,67 @@ constexpr double kDeviationsOfChance = 6.0;
 constexpr double kLargestDeviation = 0.01;
 // A motion belongs to an open direction when so much of the direction is along it.
 constexpr double kPartOfDirection = 0.4;
-// A curvature is none when it is smaller than this share of the strongest: rounding.
-constexpr double kNoCurvature = 1e-9;
+// Images are sampled and lenses calibrated to half a percent. A direction whose curvature is smaller
+// than that squared, of the strongest, is seen by mistake: it is 0.0002 behind faint texture, 0.0006
+// and more in ordinary views, 0.000004 at most in open ones.
+constexpr double kLeastCurvature = 2.5e-5;
+// What looks as if it were seen along an open direction correlates about so much with what is seen
+// across it.
+constexpr double kCorrelationOfUnconfirmed = 0.07;
 
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
+using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
 
 Matrix within(const Matrix6& matrix, const Matrix& axes, const Vector6& scale) {
   const Matrix6 scaled = scale.asDiagonal() * matrix * scale.asDiagonal();
   return axes.transpose() * scaled * axes;
 }
 
-/// Of a term's curvature in a subspace, what both frames agree on: with H = L Lᵀ it is L R Lᵀ, R
-/// the correlation of their derivatives, 1 where they are the same.
-Matrix confirmed(const TermCurvature& term, const Matrix& axes, const Vector6& scale) {
-  const Matrix H = within(term.hessian, axes, scale);
-  const Matrix none = Matrix::Zero(H.rows(), H.cols());
-  const Matrix by_keyframe = within(term.agreement.keyframe, axes, scale);
-  const Matrix by_live = within(term.agreement.live, axes, scale);
-  if (!(by_keyframe.trace() > 0.0 && by_live.trace() > 0.0) || !H.allFinite()) return none;
-  // A blurred or darker live image has smaller derivatives throughout: no disagreement.
+/// How the derivatives by keyframe and by live frame correlate in a subspace: directions (columns)
+/// along which they do so independently of each other, and by how much, -1..1, ascending.
+struct Correlation {
+  Matrix directions, inverse;
+  Vector rho;
+};
+
+std::optional<Correlation> correlationOf(const Agreement& agreement, const Matrix& axes,
+                                         const Vector6& scale) {
+  const Matrix by_keyframe = within(agreement.keyframe, axes, scale);
+  const Matrix by_live = within(agreement.live, axes, scale);
+  if (!(by_keyframe.trace() > 0.0 && by_live.trace() > 0.0)) return std::nullopt;
+  // A blurred or darker live image has smaller derivatives throughout: no disagreement. Of an image
+  // and its negative all derivatives disagree alike: none either.
+  const double sign = agreement.both.trace() < 0.0 ? -1.0 : 1.0;
   const double gain = std::sqrt(by_keyframe.trace() / by_live.trace());
   const Matrix mean = 0.5 * (by_keyframe + gain * gain * by_live);
-  const Matrix both = gain * within(term.agreement.both, axes, scale);
-  const double size = mean.trace();
+  const Matrix both = sign * gain * within(agreement.both, axes, scale);
   // Next to nothing in a direction is nothing; the bound keeps the factor regular.
-  const Matrix regular = mean + 1e-12 * size * Matrix::Identity(H.rows(), H.cols());
-  const Eigen::SelfAdjointEigenSolver<Matrix> means(regular);
-  const Matrix whitening = means.operatorInverseSqrt();
-  const Eigen::SelfAdjointEigenSolver<Matrix> correlation(Matrix(whitening * both * whitening));
-  const double least =
+  const Matrix regular =
+      mean + 1e-12 * mean.trace() * Matrix::Identity(mean.rows(), mean.cols());
+  const Eigen::SelfAdjointEigenSolver<Matrix> root(regular);
+  const Matrix whitening = root.operatorInverseSqrt();
+  const Eigen::SelfAdjointEigenSolver<Matrix> solver(Matrix(whitening * both * whitening));
+  Correlation correlation;
+  correlation.directions = whitening * solver.eigenvectors();
+  correlation.inverse = solver.eigenvectors().transpose() * root.operatorSqrt();
+  correlation.rho = solver.eigenvalues();
+  return correlation;
+}
+
+/// Of a term's curvature in a subspace, what both frames agree on. With the directions A in which
+/// their derivatives correlate by ρ, uncorrelated among each other, and P = A √ρ A⁻¹, it is Pᵀ H P:
+/// nothing along those with ρ = 0, whatever H couples them with.
+Matrix confirmed(const TermCurvature& term, const Matrix& axes, const Vector6& scale) {
+  const Matrix H = within(term.hessian, axes, scale);
+  const std::optional<Correlation> correlation = correlationOf(term.agreement, axes, scale);
+  if (!correlation || !H.allFinite()) return Matrix::Zero(H.rows(), H.cols());
+  const double of_chance =
       kDeviationsOfChance / std::sqrt(static_cast<double>(std::max(1, term.agreement.points)));
-  // Of an image and its negative all derivatives disagree alike.
-  const double sign = term.agreement.both.trace() < 0.0 ? -1.0 : 1.0;
-  const auto counted = [=](double rho) {
-    return sign * rho < least ? 0.0 : std::min(1.0, sign * rho);
-  };
-  const Matrix R = correlation.eigenvectors() *
-                   correlation.eigenvalues().unaryExpr(counted).asDiagonal() *
-                   correlation.eigenvectors().transpose();
-  const Eigen::SelfAdjointEigenSolver<Matrix> curvature(H);
-  const Matrix root = curvature.eigenvectors() *
-                      curvature.eigenvalues().cwiseAbs().cwiseSqrt().asDiagonal() *
-                      curvature.eigenvectors().transpose();
-  return root * R * root;
+  const double least = std::max(term.least_agreement, of_chance);
+  const auto counted = [=](double rho) { return rho < least ? 0.0 : std::sqrt(std::min(1.0, rho)); };
+  const Matrix P = correlation->directions * correlation->rho.unaryExpr(counted).asDiagonal() *
+                   correlation->inverse;
+  return P.transpose() * H * P;
 }
 
 }  // namespace
@@ -71,8 +90,8 @@ Observability::Observability(const Matrix6& hessian, const ObservabilityInput& i
   gradient_covariance_ = scale_.asDiagonal() * input.gradient_covariance * scale_.asDiagonal();
   expected_covariance_ = inverse.asDiagonal() * input.expected_covariance * inverse.asDiagonal();
   if (!hessian.allFinite()) return;
-  const Eigen::SelfAdjointEigenSolver<Matrix6> solver(
-      Matrix6(scale_.asDiagonal() * hessian * scale_.asDiagonal()));
+  hessian_ = scale_.asDiagonal() * hessian * scale_.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<Matrix6> solver(hessian_);
   axes_ = solver.eigenvectors();
   curvature_ = solver.eigenvalues();
   findOpen();
@@ -84,7 +103,7 @@ void Observability::findOpen() {
     const double h = curvature_[i];
     const double variance = axes_.col(i).dot(gradient_covariance_ * axes_.col(i)) / (h * h);
     const double expected = axes_.col(i).dot(expected_covariance_ * axes_.col(i));
-    const bool is_seen = h > kNoCurvature * strongest &&
+    const bool is_seen = h > kLeastCurvature * strongest &&
                          variance <= kLargestDeviation * kLargestDeviation &&
                          variance <= open_deviations_ * open_deviations_ * expected;
     is_open_[static_cast<std::size_t>(i)] = !is_seen;
@@ -113,6 +132,11 @@ void Observability::confirm(const std::array<bool, 6>& in_doubt,
     curvature_[i] = solver.eigenvalues()[k];
   }
   findOpen();
+}
+
+double Observability::leastCorrelation(const TermCurvature& term) const {
+  const std::optional<Correlation> correlation = correlationOf(term.agreement, axes_, scale_);
+  return correlation ? correlation->rho.minCoeff() : 0.0;
 }
 
 bool Observability::hasOpen() const {
@@ -158,6 +182,24 @@ Matrix6 Observability::informationOfSeen() const {
   const Matrix6 scaled = seen * information * seen.transpose();
   const Vector6 inverse = scale_.cwiseInverse();
   return inverse.asDiagonal() * scaled * inverse.asDiagonal();
+}
+
+Matrix6 Observability::covarianceOfDirections(const Matrix6& covariance) const {
+  const Vector6 inverse = scale_.cwiseInverse();
+  const Matrix6 scaled = inverse.asDiagonal() * covariance * inverse.asDiagonal();
+  double wrongly_seen = 0.0;
+  for (int i = 0; i < 6; ++i) {
+    if (!is_open_[static_cast<std::size_t>(i)]) continue;
+    const double unconfirmed = std::max(0.0, axes_.col(i).dot(hessian_ * axes_.col(i)));
+    wrongly_seen += unconfirmed * axes_.col(i).dot(scaled * axes_.col(i));
+  }
+  Matrix6 of_seen = Matrix6::Zero();
+  for (int i = 0; i < 6; ++i) {
+    if (is_open_[static_cast<std::size_t>(i)]) continue;
+    of_seen += wrongly_seen / curvature_[i] * axes_.col(i) * axes_.col(i).transpose();
+  }
+  return kCorrelationOfUnconfirmed * kCorrelationOfUnconfirmed * scale_.asDiagonal() * of_seen *
+         scale_.asDiagonal();
 }
 
 Directions Observability::openDirections(const Eigen::Isometry3d& T_live_ref) const {

@@ -14,6 +14,8 @@ namespace mivo {
 struct TermCurvature {
   Matrix6 hessian = Matrix6::Zero();
   Agreement agreement;
+  /// Directions in which the derivatives of the two frames correlate by less are not confirmed.
+  double least_agreement = 0.0;
 };
 
 /// What the sight of a frame is held against.
@@ -37,6 +39,10 @@ class Observability {
   /// and live frame agree on.
   void confirm(const std::array<bool, 6>& in_doubt, const std::vector<TermCurvature>& terms);
 
+  /// How the derivatives of keyframe and live frame correlate in the direction in which they do so
+  /// least, -1..1; 0 where there are none.
+  double leastCorrelation(const TermCurvature& term) const;
+
   /// Orthonormal columns, and the curvature along them, nats.
   const Matrix6& axes() const { return axes_; }
   const Vector6& curvature() const { return curvature_; }
@@ -55,6 +61,11 @@ class Observability {
   Matrix6 covarianceOfSeen() const;
   Matrix6 informationOfSeen() const;
 
+  /// What the seen directions may have wrong because the open ones are not known exactly: a camera
+  /// that has moved along an open direction has moved a little across it, too.
+  /// @param covariance of the increment
+  Matrix6 covarianceOfDirections(const Matrix6& covariance) const;
+
   /// Which motions of the camera lie in the open directions: those that have a large part in one.
   /// @param T_live_ref the increments' pose: they are told in the axes of the live camera.
   Directions openDirections(const Eigen::Isometry3d& T_live_ref) const;
@@ -64,8 +75,9 @@ class Observability {
   Matrix6 scaledCovarianceOfSeen() const;
 
   Vector6 scale_;                // multiplies increments in median depths to give those in metres
-  Matrix6 gradient_covariance_;  // scaled
-  Matrix6 expected_covariance_;  // scaled
+  Matrix6 hessian_ = Matrix6::Zero();  // scaled, as are the other two
+  Matrix6 gradient_covariance_;
+  Matrix6 expected_covariance_;
   double open_deviations_;
   Matrix6 axes_ = Matrix6::Identity();
   Vector6 curvature_ = Vector6::Zero();

@@ -15,6 +15,12 @@ namespace {
 // What interpolation, blur and the keyframe's depth leave of systematic error, pixels: all points
 // err alike, so that no residual shows it.
 constexpr double kModelErrorPixels = 0.05;
+// Below this, derivatives of the finest images confirm nothing, see kLeastAgreementAbove: the steps
+// of oblique edges correlate by up to 0.6 there.
+constexpr double kLeastAgreement = 0.8;
+// On the coarsest level asked they correlate by 0.3 at most. What correlates by more there in all
+// directions is texture, and what the finer levels see of it only noise can hide.
+constexpr double kAgreementOfTexture = 0.75;
 // So many points tell in a tenth of a millisecond what most views show.
 constexpr std::size_t kPointsAtFirst = 1024;
 // What robust weights leave of a sum of squares, about.
@@ -75,7 +81,7 @@ void findCurvatures(const FinishedDescent& descent, const Alignment& alignment,
     const bool is_known = i == 0 && !descent.has_prior;
     const Matrix6 hessian = is_known ? rest : term.linearise(kScaleIsKept).hessian;
     rest -= hessian;
-    curvatures.push_back({hessian, term.agreement(most_points)});
+    curvatures.push_back({hessian, term.agreement(most_points), kLeastAgreement});
   }
 }
 
@@ -100,6 +106,9 @@ Observability lookAt(const FinishedDescent& descent, const Matrix6& expected_cov
   // Before a direction is called open all points are asked, and coarser levels.
   findCurvatures(descent, alignment, descent.points.size(), *curvatures);
   descent.add_coarser(alignment.T_live_ref, *curvatures);
+  if (seen.leastCorrelation(curvatures->back()) >= kAgreementOfTexture) {
+    for (TermCurvature& term : *curvatures) term.least_agreement = 0.0;
+  }
   seen.confirm(doubt, *curvatures);
   return seen;
 }
@@ -149,7 +158,8 @@ void holdOpenDirections(const FinishedDescent& descent, const Parameters& parame
   }
   const Held held =
       holdAtExpected(descent.expected, expected_covariance, alignment.T_live_ref, seen);
-  alignment.covariance = held.covariance + model_error;
+  alignment.covariance =
+      held.covariance + seen.covarianceOfDirections(held.covariance) + model_error;
   alignment.T_live_ref = orthonormalised(alignment.T_live_ref * retract(held.increment).inverse());
   if (pixelsOf(held.increment, descent.points) > kNoticeablePixels) {
     seekInSeenDirections(descent, seen.openProjector(), parameters, alignment);

@@ -97,7 +97,7 @@ Eigen::Isometry3d MotionModel::predict(double stamp, const Eigen::Isometry3d& la
 
 /// What the camera may have gone astray within so many seconds of not being seen: its velocity
 /// keeps what it was for half a second, and may be as large as ever after that.
-Matrix6 MotionModel::drift(double seconds, const MotionParameters& parameters) const {
+Matrix6 MotionModel::driftWithin(double seconds, const MotionParameters& parameters) const {
   const double u = seconds / kMotionHorizon;
   const double of_known = kMotionHorizon * (1.0 - std::exp(-u));
   const double of_unknown = kMotionHorizon * integralOfGrowth(u);
@@ -107,16 +107,26 @@ Matrix6 MotionModel::drift(double seconds, const MotionParameters& parameters) c
                      std::max(seen_turn_rate_, parameters.expected_turn_rate));
 }
 
+double MotionModel::secondsSinceLast(double stamp, const FrameClock& clock,
+                                     const MotionParameters& parameters) const {
+  const double period = clock.period(parameters);
+  return clock.periodsBetween(last_.stamp, stamp, parameters) *
+         (period > 0.0 ? period : std::max(0.0, stamp - last_.stamp));
+}
+
+Matrix6 MotionModel::drift(double stamp, const FrameClock& clock,
+                           const MotionParameters& parameters) const {
+  return driftWithin(secondsSinceLast(stamp, clock, parameters), parameters) + floorCovariance();
+}
+
 Matrix6 MotionModel::covariance(double stamp, const FrameClock& clock,
                                 const MotionParameters& parameters) const {
-  const double period = clock.period(parameters);
-  const double since_last = clock.periodsBetween(last_.stamp, stamp, parameters) *
-                            (period > 0.0 ? period : std::max(0.0, stamp - last_.stamp));
-  const Matrix6 of_seen = last_.covariance + drift(since_last, parameters);
+  const double since_last = secondsSinceLast(stamp, clock, parameters);
+  const Matrix6 of_seen = last_.covariance + driftWithin(since_last, parameters);
   if (!last_.has_open_directions) return of_seen;
   const Matrix6 to_last = adjoint(last_.T_odom_camera.inverse() * seen_.T_odom_camera);
   const Matrix6 of_open = to_last * seen_.covariance * to_last.transpose() +
-                          drift(secondsUnseen(last_.stamp) + since_last, parameters);
+                          driftWithin(secondsUnseen(last_.stamp) + since_last, parameters);
   const Matrix6& open = last_.open_projector;
   const Matrix6 seen = Matrix6::Identity() - open;
   return seen * of_seen * seen.transpose() + open * of_open * open.transpose() + floorCovariance();

@@ -51,6 +51,9 @@ class MotionModel {
   Matrix6 covariance(double stamp, const FrameClock& clock,
                      const MotionParameters& parameters) const;
 
+  /// The part of it that has come up since the last pose.
+  Matrix6 drift(double stamp, const FrameClock& clock, const MotionParameters& parameters) const;
+
   /// Velocity of the camera in its own axes, m/s and rad/s; zero before two poses.
   Vector6 velocity(const FrameClock& clock, const MotionParameters& parameters) const;
 
@@ -63,7 +66,9 @@ class MotionModel {
   double secondsUnseen(double stamp) const;
   Vector6 motionUntil(double stamp, const FrameClock& clock,
                       const MotionParameters& parameters) const;
-  Matrix6 drift(double seconds, const MotionParameters& parameters) const;
+  double secondsSinceLast(double stamp, const FrameClock& clock,
+                          const MotionParameters& parameters) const;
+  Matrix6 driftWithin(double seconds, const MotionParameters& parameters) const;
 
   bool has_pose_ = false;
   bool has_velocity_ = false;

@@ -12,6 +12,7 @@ Prediction predict(const OdometryState& state, double stamp, const Eigen::Isomet
                                                  : state.motion.predict(stamp, state.T_odom_camera,
                                                                         state.clock, parameters);
   prediction.covariance = state.motion.covariance(stamp, state.clock, parameters);
+  prediction.drift = state.motion.drift(stamp, state.clock, parameters);
   prediction.periods = state.motion.periodsSince(stamp, state.clock, parameters);
   prediction.seconds = stamp - state.pose_stamp;
   return prediction;

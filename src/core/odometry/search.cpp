@@ -25,6 +25,7 @@ AlignmentTask taskFor(const SearchInput& input, const Prediction& prediction,
   task.expected.is_known = is_connected;
   task.expected.T_live_ref = prediction.T_odom_camera.inverse() * keyframe.T_odom_keyframe;
   task.expected.covariance = prediction.covariance;
+  task.expected.drift = prediction.drift;
   task.expected.keyframe_covariance = keyframe.covariance;
   task.skipped_levels = attempt.skipped_levels;
   task.holds_coarse_levels = is_connected && attempt.is_expected &&
