@@ -24,7 +24,7 @@ constexpr double kPartOfDirection = 0.4;
 constexpr double kLeastCurvature = 2.5e-5;
 // What looks as if it were seen along an open direction correlates about so much with what is seen
 // across it.
-constexpr double kCorrelationOfUnconfirmed = 0.07;
+constexpr double kCorrelationOfUnconfirmed = 0.1;
 
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
 using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;

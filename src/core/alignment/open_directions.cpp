@@ -16,8 +16,9 @@ namespace {
 // err alike, so that no residual shows it.
 constexpr double kModelErrorPixels = 0.05;
 // Below this, derivatives of the finest images confirm nothing, see kLeastAgreementAbove: the steps
-// of oblique edges correlate by up to 0.6 there.
-constexpr double kLeastAgreement = 0.8;
+// of oblique edges correlate by up to 0.6 there, those of a few points by up to 0.75.
+constexpr double kLeastAgreement = 0.7;
+constexpr double kLeastAgreementOfFew = 0.8;
 // On the coarsest level asked they correlate by 0.3 at most. What correlates by more there in all
 // directions is texture, and what the finer levels see of it only noise can hide.
 constexpr double kAgreementOfTexture = 0.75;
@@ -72,7 +73,8 @@ Matrix6 gradientCovariance(const FinishedDescent& descent, const Matrix6& hessia
 
 /// In place of what was in the list. The Hessian of all terms is known: the last one has the rest.
 void findCurvatures(const FinishedDescent& descent, const Alignment& alignment,
-                    std::size_t most_points, std::vector<TermCurvature>& curvatures) {
+                    std::size_t most_points, double least_agreement,
+                    std::vector<TermCurvature>& curvatures) {
   curvatures.clear();
   Matrix6 rest = alignment.hessian;
   for (std::size_t i = descent.terms.size(); i-- > 0;) {
@@ -81,7 +83,7 @@ void findCurvatures(const FinishedDescent& descent, const Alignment& alignment,
     const bool is_known = i == 0 && !descent.has_prior;
     const Matrix6 hessian = is_known ? rest : term.linearise(kScaleIsKept).hessian;
     rest -= hessian;
-    curvatures.push_back({hessian, term.agreement(most_points), kLeastAgreement});
+    curvatures.push_back({hessian, term.agreement(most_points), least_agreement});
   }
 }
 
@@ -100,11 +102,11 @@ Observability lookAt(const FinishedDescent& descent, const Matrix6& expected_cov
   }
   Recycled<std::vector<TermCurvature>> curvatures;
   Observability few = seen;
-  findCurvatures(descent, alignment, kPointsAtFirst, *curvatures);
+  findCurvatures(descent, alignment, kPointsAtFirst, kLeastAgreementOfFew, *curvatures);
   few.confirm(doubt, *curvatures);
   if (!few.hasOpen()) return few;
   // Before a direction is called open all points are asked, and coarser levels.
-  findCurvatures(descent, alignment, descent.points.size(), *curvatures);
+  findCurvatures(descent, alignment, descent.points.size(), kLeastAgreement, *curvatures);
   descent.add_coarser(alignment.T_live_ref, *curvatures);
   if (seen.leastCorrelation(curvatures->back()) >= kAgreementOfTexture) {
     for (TermCurvature& term : *curvatures) term.least_agreement = 0.0;
