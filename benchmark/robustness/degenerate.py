@@ -73,7 +73,7 @@ def film(bench, case, seed):
     frames = QUICK_FRAMES if bench.options.quick else frames
     return bench.generate(f"{name.replace(', ', '_').replace(' ', '_')}{seed}_{frames}",
                           "--scene", scene, "--trajectory", "slide", "--frames", frames, "--seed",
-                          seed, *SMALL, "--no-blur", "--samples", 1, *options)
+                          seed, *SMALL, "--no-blur", *options)
 
 
 def judge(frames, scene, seed):
