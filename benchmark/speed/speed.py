@@ -24,7 +24,7 @@ Made by `scripts/benchmark speed --document` on %s, %d cores. Processor time on 
 thread from decoded 8-bit image and 16-bit depth to the pose, keyframes and undistortion included. Runs
 take turns and each figure is the median over %d of them; what else the machine did is in the
 milliseconds, but hardly in the ratios. SSD, MI and hybrid are the paper's (`photometric_model: none`,
-`geometric_term: false`, `rolling_shutter_estimation: false`, `hold_coarse_levels: false`); default is what a user gets.
+`geometric_term: false`, `rolling_shutter_estimation: false`, `hold_coarse_levels: false`, `surprise_deviations: 1000000`); default is what a user gets.
 """
 BACKENDS = """The hot loops are functions over plain arrays (`include/mivo/core/kernels/kernels.h`) with a readable
 reference in plain C++ and one vector source for SSE4, AVX2, AVX-512 and NEON. The processor decides

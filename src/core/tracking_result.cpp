@@ -33,6 +33,8 @@ const char* toString(TrackingReason reason) {
       return "image has nothing in common with the keyframe";
     case TrackingReason::kOpenDirections:
       return "no view of some directions of motion";
+    case TrackingReason::kAmbiguous:
+      return "two poses explain the image alike";
     case TrackingReason::kImplausibleMotion:
       return "motion faster than the limits";
     case TrackingReason::kNotFinite:

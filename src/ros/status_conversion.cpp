@@ -33,6 +33,8 @@ std::uint8_t code(TrackingReason reason) {
       return TrackingStatus::REASON_NO_OVERLAP;
     case TrackingReason::kOpenDirections:
       return TrackingStatus::REASON_OPEN_DIRECTIONS;
+    case TrackingReason::kAmbiguous:
+      return TrackingStatus::REASON_AMBIGUOUS;
     case TrackingReason::kImplausibleMotion:
       return TrackingStatus::REASON_IMPLAUSIBLE_MOTION;
     case TrackingReason::kNothingInCommon:

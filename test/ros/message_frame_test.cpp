@@ -68,7 +68,7 @@ TEST(StatusTest, CodesAreThoseOfTheMessageDefinition) {
       {TrackingReason::kTooFewPoints, 2},   {TrackingReason::kNoOverlap, 3},
       {TrackingReason::kOpenDirections, 4}, {TrackingReason::kImplausibleMotion, 5},
       {TrackingReason::kNotFinite, 6},      {TrackingReason::kNothingInCommon, 7},
-      {TrackingReason::kStaleStamp, 8}};
+      {TrackingReason::kStaleStamp, 8},     {TrackingReason::kAmbiguous, 9}};
   for (const auto& [reason, code] : reasons) {
     result.reason = reason;
     EXPECT_EQ(code, toMessage(result, {}).reason);

@@ -28,6 +28,7 @@ enum class TrackingReason {
   kNoOverlap,          ///< too few of the keyframe's points are in view
   kNothingInCommon,    ///< the images have nothing in common: dark, covered, or another place
   kOpenDirections,     ///< image and depth leave directions of motion open: see open_directions
+  kAmbiguous,          ///< another pose explains the images as well: the covariance covers both
   kImplausibleMotion,  ///< faster than the limits allow
   kNotFinite           ///< the alignment diverged
 };

@@ -60,7 +60,8 @@ void follow(const SearchInput& input, const Prediction& prediction, const Sight&
   MeasuredPose pose = measuredPose(prediction, result);
   pose.has_open_directions = alignment.has_open_directions;
   pose.open_projector = alignment.open_projector;
-  state.motion.add(pose, state.clock, input.parameters.motion);
+  // What may be wrong does not lead the next frame.
+  if (!sight.is_ambiguous) state.motion.add(pose, state.clock, input.parameters.motion);
   result.velocity = state.motion.velocity(state.clock, input.parameters.motion);
   // Held against a keyframe whose own velocity is not known, a frame says nothing about the rows.
   if (!keyframe.keyframe.twistPerPeriod().isZero(0.0)) state.shutter.add(alignment);
@@ -117,7 +118,7 @@ Decision decideTracked(const SearchInput& input, const Prediction& prediction, c
   if (!is_continued) state.motion.stop();
   follow(input, prediction, sight, state, said);
   said.segment = state.segment;
-  const Quality quality = qualityOf(alignment);
+  const Quality quality = qualityOf(alignment, sight.is_ambiguous);
   said.state = quality.state;
   said.reason = quality.reason;
   if (alignment.has_open_directions) said.open_directions = alignment.open_directions;
@@ -126,10 +127,10 @@ Decision decideTracked(const SearchInput& input, const Prediction& prediction, c
     state.first_quality = {alignment.mutual_information, alignment.residual_scale,
                            alignment.correlation};
   }
-  if (!must_become_keyframe &&
-      !needsNewKeyframe(alignment, keyframe.keyframe, state.first_quality, input.parameters)) {
-    return decision;
-  }
+  const bool is_wanted =
+      must_become_keyframe ||
+      needsNewKeyframe(alignment, keyframe.keyframe, state.first_quality, input.parameters);
+  if (!is_wanted || sight.is_ambiguous) return decision;
   KeyframePlan plan;
   plan.T_odom_camera = state.T_odom_camera;
   if (is_continued) {

@@ -27,11 +27,12 @@ bool isConvincing(const Alignment& alignment, const LossParameters& parameters) 
   return alignment.sees_image && alignment.correlation >= parameters.retry_correlation;
 }
 
-Quality qualityOf(const Alignment& alignment) {
+Quality qualityOf(const Alignment& alignment, bool is_ambiguous) {
   if (alignment.has_open_directions) {
     return {TrackingState::kDegraded, TrackingReason::kOpenDirections};
   }
   if (!alignment.sees_image) return {TrackingState::kDegraded, TrackingReason::kNothingInCommon};
+  if (is_ambiguous) return {TrackingState::kDegraded, TrackingReason::kAmbiguous};
   return {};
 }
 

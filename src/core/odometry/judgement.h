@@ -24,6 +24,7 @@ struct Quality {
   TrackingState state = TrackingState::kTracking;
   TrackingReason reason = TrackingReason::kNone;
 };
-Quality qualityOf(const Alignment& alignment);
+/// @param is_ambiguous another pose explains the frame as well
+Quality qualityOf(const Alignment& alignment, bool is_ambiguous);
 
 }  // namespace mivo

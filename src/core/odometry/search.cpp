@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "core/odometry/hypotheses.h"
 #include "core/odometry/judgement.h"
 #include "core/odometry/recovery.h"
 
@@ -72,17 +73,50 @@ std::optional<Sight> recover(const SearchInput& input, const Prediction& predict
   return std::nullopt;
 }
 
+/// A sight that hardly agrees with the keyframe, or that the motion so far did not lead to.
+bool isDoubtful(const SearchInput& input, const Prediction& prediction, const Sight& sight) {
+  if (!isConvincing(sight.alignment, input.parameters.loss)) return true;
+  const double bound = input.parameters.loss.surprise_deviations;
+  return input.state.motion.hasVelocity() &&
+         innovation(input, prediction, sight) > bound * bound;
+}
+
+/// How many of the coarsest levels are aligned by mutual information.
+int numMiLevels(const SearchInput& input) {
+  const int levels = input.keyframes.current().keyframe.numLevels();
+  int count = 0;
+  while (count < levels - 1 && usesMutualInformation(input.parameters, levels - 1 - count)) ++count;
+  return count;
+}
+
+/// The best of the first sight and of those from other starts: from the last pose, and from the
+/// expected one without the coarse levels, which may have led away from it.
+Sight compete(const SearchInput& input, const Prediction& prediction, const Sight& first) {
+  Sight best = first;
+  std::optional<Sight> second_best;
+  for (const RecoveryAttempt& attempt :
+       {RecoveryAttempt{0, input.state.T_odom_camera, true},
+        RecoveryAttempt{0, prediction.T_odom_camera, true, numMiLevels(input)}}) {
+    const Sight sight = look(input, prediction, attempt);
+    if (!isBelievable(sight)) continue;
+    const bool is_better =
+        evidence(input, prediction, sight) > evidence(input, prediction, best);
+    const Sight& other = is_better ? best : sight;
+    if (isAmbiguous(input, prediction, is_better ? sight : best, other)) second_best = other;
+    if (is_better) best = sight;
+  }
+  if (!second_best || !isAmbiguous(input, prediction, best, *second_best)) return best;
+  return coveringBoth(input, best, *second_best);
+}
+
 }  // namespace
 
 Sight findCamera(const SearchInput& input, const Prediction& prediction) {
   const Sight first = look(input, prediction, {0, prediction.T_odom_camera, true});
   if (first.alignment.is_live_dark) return first;
   if (!isBelievable(first)) return recover(input, prediction).value_or(first);
-  if (isConvincing(first.alignment, input.parameters.loss)) return first;
-  const Sight second = look(input, prediction, {0, input.state.T_odom_camera});
-  const bool is_better =
-      isBelievable(second) && second.alignment.correlation > first.alignment.correlation;
-  return is_better ? second : first;
+  if (isDoubtful(input, prediction, first)) return compete(input, prediction, first);
+  return first;
 }
 
 }  // namespace mivo

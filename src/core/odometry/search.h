@@ -27,10 +27,12 @@ struct Sight {
   Alignment alignment;
   std::size_t keyframe = 0;  ///< index in the store
   TrackingReason reason = TrackingReason::kNone;
+  bool is_ambiguous = false;  ///< another pose explains the frame as well: it is in the covariance
 };
 
-/// Aligns the frame with the current keyframe from the prediction, and judges the result. In doubt
-/// other starts are tried, and when it cannot be believed other keyframes, too.
+/// Aligns the frame with the current keyframe from the prediction, and judges the result. When
+/// its image hardly agrees, or the motion surprises, other starts compete with it; when it cannot be
+/// believed other keyframes are tried, too.
 Sight findCamera(const SearchInput& input, const Prediction& prediction);
 
 }  // namespace mivo

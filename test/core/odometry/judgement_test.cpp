@@ -33,8 +33,10 @@ class JudgementTest : public ::testing::Test {
 TEST_F(JudgementTest, NothingSpeaksAgainstAGoodOne) {
   EXPECT_EQ(reason(), TrackingReason::kNone);
   EXPECT_TRUE(isConvincing(alignment_, parameters_));
-  EXPECT_EQ(qualityOf(alignment_).state, TrackingState::kTracking);
-  EXPECT_EQ(qualityOf(alignment_).reason, TrackingReason::kNone);
+  EXPECT_EQ(qualityOf(alignment_, false).state, TrackingState::kTracking);
+  EXPECT_EQ(qualityOf(alignment_, false).reason, TrackingReason::kNone);
+  EXPECT_EQ(qualityOf(alignment_, true).state, TrackingState::kDegraded);
+  EXPECT_EQ(qualityOf(alignment_, true).reason, TrackingReason::kAmbiguous);
 }
 
 TEST_F(JudgementTest, EachLimitHasItsReason) {
@@ -61,8 +63,8 @@ TEST_F(JudgementTest, DepthAloneCountsOnlyInTheDark) {
     *dark = true;
     EXPECT_EQ(reason(), TrackingReason::kNone);
     EXPECT_FALSE(isConvincing(alignment_, parameters_));
-    EXPECT_EQ(qualityOf(alignment_).state, TrackingState::kDegraded);
-    EXPECT_EQ(qualityOf(alignment_).reason, TrackingReason::kNothingInCommon);
+    EXPECT_EQ(qualityOf(alignment_, false).state, TrackingState::kDegraded);
+    EXPECT_EQ(qualityOf(alignment_, false).reason, TrackingReason::kNothingInCommon);
     alignment_.sees_depth = false;
     EXPECT_EQ(reason(), TrackingReason::kNothingInCommon);
     alignment_.sees_depth = true;
@@ -73,8 +75,8 @@ TEST_F(JudgementTest, DepthAloneCountsOnlyInTheDark) {
 TEST_F(JudgementTest, AnOpenDirectionDegrades) {
   alignment_.has_open_directions = true;
   EXPECT_EQ(reason(), TrackingReason::kNone);
-  EXPECT_EQ(qualityOf(alignment_).state, TrackingState::kDegraded);
-  EXPECT_EQ(qualityOf(alignment_).reason, TrackingReason::kOpenDirections);
+  EXPECT_EQ(qualityOf(alignment_, false).state, TrackingState::kDegraded);
+  EXPECT_EQ(qualityOf(alignment_, false).reason, TrackingReason::kOpenDirections);
 }
 
 TEST_F(JudgementTest, AWeakCorrelationConvincesNobody) {

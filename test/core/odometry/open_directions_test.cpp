@@ -21,6 +21,7 @@ Parameters methodOfThePaper() {
   parameters.geometry.geometric_term = false;
   parameters.shutter.rolling_shutter_estimation = false;
   parameters.motion.hold_coarse_levels = false;
+  parameters.loss.surprise_deviations = 1e6;
   return parameters;
 }
 
