@@ -46,29 +46,12 @@ if(NOT EIGEN3_INCLUDE_DIRS)
   get_target_property(EIGEN3_INCLUDE_DIRS Eigen3::Eigen INTERFACE_INCLUDE_DIRECTORIES)
 endif()
 
-# The libraries are exported as targets, by mivo-extras.cmake.
+# The libraries are exported as targets, by mivo-extras.cmake; their headers need no ROS, those made of
+# messages and parameters do.
 catkin_package(
   CFG_EXTRAS mivo-extras.cmake
   INCLUDE_DIRS include
-  CATKIN_DEPENDS
-    camera_info_manager
-    cv_bridge
-    diagnostic_updater
-    dynamic_reconfigure
-    geometry_msgs
-    image_transport
-    message_runtime
-    nav_msgs
-    nodelet
-    pluginlib
-    rosbag
-    roscpp
-    sensor_msgs
-    std_msgs
-    std_srvs
-    tf2_msgs
-    tf2_ros
-    visualization_msgs
+  CATKIN_DEPENDS dynamic_reconfigure geometry_msgs message_runtime std_msgs
   DEPENDS EIGEN3 OpenCV)
 
 # rosrun and roslaunch look into the devel space, where the programs lie; build/bin is a link to them.

@@ -43,10 +43,11 @@ class Case(unittest.TestCase):
         return self.path(name)
 
     def launch(self, *arguments, limit=10):
-        """Ends within the limit, in seconds, or the test fails."""
+        """Ends within the limit, in seconds, or the test fails. rosbag's player, which waits for its
+        subscribers, does not hear SIGINT: roslaunch would wait for it for 15 s."""
         return subprocess.run(
-            [os.path.join(ROOT, "test/ros/run_with_ros"), BUILD, "roslaunch", "--port", "0", "mivo",
-             *arguments], text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False,
+            [os.path.join(ROOT, "test/ros/run_with_ros"), BUILD, "roslaunch", "--port", "0",
+             "--sigint-timeout=1", "mivo", *arguments], text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False,
             cwd=self.folder, timeout=limit,
             env={**os.environ, "PWD": self.folder, "ROS_HOME": self.path("ros")})
 
@@ -74,10 +75,21 @@ class LaunchFaultsTest(Case):
             self.assertRegex(errors.read(), "^mivo: launch argument " + re.escape(line) + ".*\n$")
 
     def test_roslaunch_ends_at_once(self):
-        result = self.launch("bag.launch", "bag:=any.bag", "output:=taken.txt", "rviz:=false")
-        self.assertEqual(1, result.returncode, result.stdout)
-        self.assertIn("mivo: launch argument 'output' is '%s', which exists: force:=true replaces it"
-                      % self.taken, result.stdout.splitlines())
+        """What bag.launch may be given wrongly, by the command itself: no message of the node, but one
+        line with the argument to change."""
+        missing = self.path("missing")
+        for arguments, line in (
+                (["output:=taken.txt"],
+                 "'output' is '%s', which exists: force:=true replaces it" % self.taken),
+                (["output:=missing/run.txt"],
+                 "'output' is '%s/run.txt', but there is no folder '%s': make it first" % (missing, missing)),
+                (["method:=foo"], "'method' is 'foo', expected hybrid, mi, ssd"),
+                (["rate:=fast"], "'rate' is 'fast', expected a number above 0")):
+            with self.subTest(arguments=arguments):
+                result = self.launch("bag.launch", "bag:=any.bag", "rviz:=false", *arguments)
+                self.assertEqual(1, result.returncode, result.stdout)
+                told = [said for said in result.stdout.splitlines() if said.startswith("mivo: ")]
+                self.assertEqual(["mivo: launch argument " + line], told)
 
     def test_an_existing_output_needs_force(self):
         line = "'output' is '%s', which exists: force:=true replaces it" % self.taken
@@ -113,6 +125,8 @@ class LaunchFaultsTest(Case):
         self.expect_refusal("'delay' is 'nan', expected a number, 0 or more", *bag, "delay:=nan")
         self.expect_refusal("'queue_size' is '2.5', expected a whole number, 1 or more",
                             "odometry.launch", "queue_size:=2.5")
+        self.expect_refusal("'write_lost' is 'maybe', expected true or false", "odometry.launch",
+                            "write_lost:=maybe")
         self.expect_refusal("'duration' is 'long', expected a number, 0 or more", "record.launch",
                             "duration:=long")
 
@@ -151,7 +165,7 @@ class RefusedByTheNodeTest(Case):
                        check=True, stdout=subprocess.DEVNULL)
 
     def expect_end(self, *arguments):
-        result = self.launch(*arguments, "rviz:=false", limit=30)
+        result = self.launch(*arguments, "rviz:=false", limit=20)
         told = [line for line in result.stdout.splitlines() if "cannot start: " in line]
         self.assertEqual(1, len(told), result.stdout)
         self.assertIn("mi_bins", told[0])
