@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "io/png_file.h"
+#include "io/image_file.h"
 #include "io/table_reader.h"
 #include "mivo/core/error.h"
 #include "session/stamp_order.h"
@@ -171,13 +171,13 @@ void SequenceReader::probe() const {
 Frame SequenceReader::read(const Entry& entry) const {
   Frame frame;
   frame.stamp = entry.stamp;
-  const cv::Mat image = readPng(entry.image_path);
+  const cv::Mat image = readImage(entry.image_path);
   try {
     frame.image = toGrey(image, ChannelOrder::kBgr);
   } catch (const Error& error) {
     throw Error(entry.image_path + ": " + error.what());
   }
-  frame.depth = readPng(entry.depth_path);
+  frame.depth = readImage(entry.depth_path);
   if (frame.depth.type() != CV_16UC1) {
     throw Error(entry.depth_path + " is no 16-bit image with one channel, as depth has to be");
   }

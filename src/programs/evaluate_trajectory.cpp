@@ -5,7 +5,7 @@
 
 #include "evaluation/evaluation_plot.h"
 #include "evaluation/report.h"
-#include "io/png_file.h"
+#include "io/image_file.h"
 #include "mivo/io/output_file.h"
 #include "mivo/io/trajectory_io.h"
 #include "programs/command_line.h"

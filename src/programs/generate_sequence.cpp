@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "io/png_file.h"
+#include "io/image_file.h"
 #include "io/sequence_writer.h"
 #include "mivo/core/error.h"
 #include "mivo/io/output_file.h"

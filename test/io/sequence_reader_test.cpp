@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "io/png_file.h"
+#include "io/image_file.h"
 #include "support/error_text.h"
 #include "support/temporary_folder.h"
 

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "io/png_file.h"
+#include "io/image_file.h"
 #include "mivo/core/se3.h"
 #include "mivo/io/trajectory_io.h"
 #include "programs/program_fixture.h"
@@ -86,7 +86,7 @@ TEST_F(EvaluateTrajectoryTest, WritesJsonAndPlot) {
     EXPECT_NE(text.find('"' + line.substr(0, colon) + '"' + line.substr(colon)), std::string::npos)
         << line;
   }
-  EXPECT_EQ(readPng(plot).type(), CV_8UC3);
+  EXPECT_EQ(readImage(plot).type(), CV_8UC3);
 
   expectRefusal(run("evaluate_trajectory", {truth_, estimate_, "--json", json}), 1,
                 json + " exists");
