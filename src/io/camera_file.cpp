@@ -45,6 +45,12 @@ SequenceCamera readCamera(const std::string& path) {
     camera.distortion = {table.number(7), table.number(8), table.number(9), table.number(10),
                          table.number(11)};
   }
+  if (camera.fy < 0.0) {
+    table.refuse(fmt::format(
+        "fy is {:g}: ICL-NUIM, among others, gives it so for a y axis that points up, with images "
+        "that lie as all do. Write {:g}; in the true poses ty, qx and qz change their signs then",
+        camera.fy, -camera.fy));
+  }
   if (!(result.depth_units_per_metre > 0.0)) table.refuse("depth_units_per_metre is not positive");
   try {
     camera.validate();
