@@ -8,6 +8,7 @@
 #include <sstream>
 #include <string>
 
+#include "core/camera_doubt.h"
 #include "mivo/core/error.h"
 
 namespace mivo {
@@ -108,6 +109,8 @@ void Camera::validate() const {
          << ": sizes and focal lengths must be positive and all numbers finite";
     throw Error(text.str());
   }
+  const std::string fault = findCameraFault(*this);
+  if (!fault.empty()) throw Error("camera: " + fault);
   refuseFoldingLens(*this);
 }
 

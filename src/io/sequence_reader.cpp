@@ -9,6 +9,7 @@
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
+#include "core/camera_doubt.h"
 #include "io/image_file.h"
 #include "io/sequence_listing.h"
 #include "mivo/core/error.h"
@@ -52,6 +53,14 @@ Camera resized(const Camera& camera, const cv::Size& size) {
   result.cx = (camera.cx + 0.5) * x - 0.5;
   result.cy = (camera.cy + 0.5) * y - 0.5;
   return result;
+}
+
+SequenceListing list(const std::string& folder) {
+  try {
+    return listSequence(folder);
+  } catch (const fs::filesystem_error& error) {
+    throw Error("cannot read " + error.path1().string() + ": " + error.code().message());
+  }
 }
 
 /// A part of what is listed.
@@ -101,6 +110,8 @@ class SequenceReader::Images {
         continue;
       }
       fit(frame, listed);
+      const std::string doubt = doubtOf(listing_.camera.camera);
+      if (!doubt.empty()) listing_.notices.push_back(listing_.camera_file + ": " + doubt);
       return;
     }
     throw Error(
@@ -186,9 +197,10 @@ class SequenceReader::Images {
 };
 
 SequenceReader::SequenceReader(const std::string& folder, const FrameRange& range) {
-  if (!fs::exists(folder)) throw Error("there is no folder " + folder);
-  if (!fs::is_directory(folder)) throw Error(folder + " is no folder");
-  SequenceListing listing = listSequence(folder);
+  std::error_code ignored;  // what cannot be looked at fails, with its reason, when it is listed
+  if (!fs::exists(folder, ignored)) throw Error("there is no folder " + folder);
+  if (!fs::is_directory(folder, ignored)) throw Error(folder + " is no folder");
+  SequenceListing listing = list(folder);
   restrict(listing.frames, range, folder);
   images_ = std::make_unique<Images>(std::move(listing));
   camera_ = images_->listing().camera;

@@ -11,6 +11,7 @@
 #include "mivo/io/trajectory_io.h"
 #include "programs/progress_bar.h"
 #include "programs/statistics_file.h"
+#include "session/repeated_image.h"
 
 namespace mivo {
 namespace {
@@ -51,6 +52,7 @@ class TrackingRun {
   std::optional<TrajectoryWriter> trajectory_;
   std::optional<StatisticsFile> statistics_;
   std::optional<Disturbance> disturbance_;
+  RepeatedImage repeated_;
   ProgressBar progress_;
   TrackingSummary summary_;
 };
@@ -68,6 +70,11 @@ TrackingRun::TrackingRun(const FrameSource& source, const TrackingOptions& optio
 }
 
 void TrackingRun::track(const Frame& frame) {
+  if (repeated_.check(frame)) {
+    skip({fmt::format("frame of stamp {:.6f}: {}", frame.stamp, RepeatedImage::kReason),
+          RepeatedImage::kReason});
+    return;
+  }
   const double start = processMilliseconds();
   const TrackingResult& result = process(odometry_, frame, disturbance_);
   const double cpu_ms = processMilliseconds() - start;

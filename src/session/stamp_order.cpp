@@ -42,9 +42,11 @@ double stampUnit(std::vector<double> stamps) {
   if (middle > kNanoseconds) return 1e-9;
   if (middle > kMicroseconds) return 1e-6;
   if (middle > kMilliseconds) return 1e-3;
+  const bool are_whole = std::all_of(stamps.begin(), stamps.end(),
+                                     [](double stamp) { return stamp == std::floor(stamp); });
+  if (!are_whole) return 1.0;
   std::vector<double> gaps;
   for (std::size_t i = 1; i < stamps.size(); ++i) {
-    if (stamps[i] != std::floor(stamps[i])) return 1.0;
     if (stamps[i] > stamps[i - 1]) gaps.push_back(stamps[i] - stamps[i - 1]);
   }
   if (gaps.empty()) return 1.0;

@@ -32,9 +32,9 @@ TEST(CameraFileTest, ReadsTheFieldsInTheirOrder) {
 
 TEST(CameraFileTest, AByteOrderMarkIsNoText) {
   const TemporaryFolder folder;
-  for (const char* text : {"\xEF\xBB\xBF# comment\n640 480 1 2 3 4 5000\n",
+  for (const char* text : {"\xEF\xBB\xBF# comment\n640 480 500 500 320 240 5000\n",
                            "\xEF\xBB\xBF"
-                           "640 480 1 2 3 4 5000\n"}) {
+                           "640 480 500 500 320 240 5000\n"}) {
     EXPECT_EQ(readCamera(folder.write("camera.txt", text)).camera.width, 640);
   }
 }

@@ -466,6 +466,23 @@ TEST_F(SequenceLayoutTest, NumberedFoldersBesideACamera) {
   expectNotice("numbered images in color and depth");
 }
 
+TEST_F(SequenceLayoutTest, CamerasThatCannotBeRightAreRefusedOrDoubted) {
+  writeTumImages();
+  writeLists({"0", "1", "2"}, {"0", "1", "2"});
+  folder_.write("camera.txt", "8 6 100 100 4 3 1000\n");
+  expectRefusal("camera.txt:1: camera: with a focal length of 100 pixels images of 8 x 6 span 4.5");
+  folder_.write("camera.txt", "8 6 0.1 0.1 4 3 1000\n");
+  expectRefusal("camera.txt:1: camera: with a focal length of 0.1 pixels");
+  folder_.write("camera.txt", "8 6 20 20 7.51 5.51 1000\n");
+  expectRefusal(
+      "the principal point (7.51, 5.51) lies outside of images of 8 x 6 pixels: is the "
+      "calibration for images of 16 x 12 pixels?");
+  folder_.write("camera.txt", "8 6 5 5 1.5 1 1000\n");
+  expectNotice(
+      "camera.txt: the principal point (1.5, 1) is far from the centre of images of 8 x 6 "
+      "pixels: is the calibration for images of 4 x 3 pixels?");
+}
+
 TEST_F(SequenceLayoutTest, OtherFoldersAreRefusedWithWhatIsMissing) {
   expectRefusal("is no sequence folder: it has neither rgb.txt and depth.txt (TUM)");
   folder_.write("rgb.txt", "0 rgb/0.png\n");

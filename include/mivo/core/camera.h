@@ -36,8 +36,9 @@ struct Camera {
   double cy = 0.0;
   Distortion distortion;
 
-  /// Throws Error when a size or focal length is not positive, a number is not finite, or the
-  /// lens' polynomial folds back in the inner half of the image.
+  /// Throws Error when a size or focal length is not positive, a number is not finite, the image
+  /// would span less than 10 or more than 170 degrees, the principal point lies outside of it, or
+  /// the lens' polynomial folds back in its inner half.
   void validate() const;
 
   /// The camera of pyramid level `level` (0: this one). Levels are reduced by a Gaussian that keeps
