@@ -7,6 +7,8 @@
 #include <sstream>
 #include <utility>
 
+#include "core/nearest_name.h"
+
 namespace mivo {
 namespace {
 
@@ -29,13 +31,21 @@ std::string oneLine(std::string text) {
   return text;
 }
 
+std::string beforeEquals(const std::string& option) {
+  return option.substr(0, option.find('='));
+}
+
+std::string withoutDashes(const std::string& option) {
+  return option.substr(std::min(option.find_first_not_of('-'), option.size()));
+}
+
 }  // namespace
 
 CommandLine::CommandLine(std::string program, std::string summary)
     : program_(std::move(program)),
       summary_(std::move(summary)),
       visible_("Options", kHelpWidth, kHelpWidth / 2) {
-  visible_.add_options()("help", "print this text")("version", "print the version");
+  visible_.add_options()("help,h", "print this text")("version", "print the version");
 }
 
 void CommandLine::argument(const std::string& name, std::string* target, const std::string& text) {
@@ -66,6 +76,10 @@ bool CommandLine::parse(int argc, const char* const* argv) {
       return false;
     }
     po::notify(values_);
+  } catch (const po::unknown_option& error) {
+    const std::string option = beforeEquals(error.get_option_name());
+    throw UsageError("unknown option '" + option + "'" +
+                     didYouMean(withoutDashes(option), optionNames(), "'--"));
   } catch (const po::error& error) {
     throw UsageError(error.what());
   }
@@ -79,6 +93,12 @@ bool CommandLine::parse(int argc, const char* const* argv) {
   }
   for (std::size_t i = 0; i < given.size(); ++i) *arguments_[i].target = given[i];
   return true;
+}
+
+std::vector<std::string> CommandLine::optionNames() const {
+  std::vector<std::string> names;
+  for (const auto& option : visible_.options()) names.push_back(option->long_name());
+  return names;
 }
 
 bool CommandLine::has(const std::string& option) const {

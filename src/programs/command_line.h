@@ -16,7 +16,8 @@ class UsageError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The command line of one program: required arguments in order, options, `--help`, `--version`.
+/// The command line of one program: required arguments in order, options, `--help` (`-h`),
+/// `--version`. An unknown option is answered with the nearest known one.
 ///
 ///   int main(int argc, char** argv) {
 ///     return mivo::runProgram("count_frames", [&] {
@@ -55,6 +56,8 @@ class CommandLine {
     std::string* target;
     std::string text;
   };
+  std::vector<std::string> optionNames() const;
+
   std::string program_;
   std::string summary_;
   std::vector<Argument> arguments_;

@@ -9,6 +9,7 @@
 #include "mivo/io/output_file.h"
 #include "mivo/io/trajectory_io.h"
 #include "programs/command_line.h"
+#include "programs/output_paths.h"
 
 namespace {
 
@@ -43,15 +44,15 @@ void run(int argc, char** argv) {
   if (!line.parse(argc, argv)) return;
   requirePositive("delta", options.delta);
   requirePositive("max-time-difference", options.max_time_difference);
+  const mivo::Overwrite overwrite = force ? mivo::Overwrite::kYes : mivo::Overwrite::kNo;
+  mivo::requireOutputs({{"--json", json_path}, {"--plot", plot_path}},
+                       {{"TRUTH", truth_path}, {"ESTIMATE", estimate_path}}, overwrite);
 
   const mivo::Trajectory truth = mivo::readTrajectory(truth_path);
   const mivo::Trajectory estimate = mivo::readTrajectory(estimate_path);
   const mivo::Evaluation evaluation = mivo::evaluate(truth, estimate, options);
   const std::vector<mivo::Figure> figures = figuresOf(evaluation);
 
-  const mivo::Overwrite overwrite = force ? mivo::Overwrite::kYes : mivo::Overwrite::kNo;
-  if (!json_path.empty()) mivo::refuseExisting(json_path, overwrite);
-  if (!plot_path.empty()) mivo::refuseExisting(plot_path, overwrite);
   std::cout << toText(figures) << std::flush;
   if (!json_path.empty()) mivo::OutputFile(json_path, overwrite).write(toJson(figures));
   if (!plot_path.empty()) {

@@ -63,7 +63,8 @@ TrackingRun::TrackingRun(const FrameSource& source, const TrackingOptions& optio
       disturbance_(options.disturbance),
       progress_(source.size()) {
   const Overwrite overwrite = options.force ? Overwrite::kYes : Overwrite::kNo;
-  if (!options.statistics.empty()) refuseExisting(options.statistics, overwrite);
+  requireOutputs({{"--output", options.output}, {"--statistics", options.statistics}},
+                 options.inputs, overwrite);
   trajectory_.emplace(options.output, overwrite);
   if (options.statistics.empty()) return;
   statistics_.emplace(options.statistics, overwrite, options.parameters.alignment.levels);
