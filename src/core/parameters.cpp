@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "core/nearest_name.h"
+#include "core/plain_value.h"
 #include "mivo/core/error.h"
 
 namespace mivo {
@@ -60,34 +61,26 @@ std::string rangeText(const ParameterInfo& info) {
   throw Error("parameter '" + info.name + "': '" + value + "' is not " + rangeText(info));
 }
 
-double parseNumber(const ParameterInfo& info, const std::string& value) {
-  std::istringstream stream(value);
-  stream.imbue(std::locale::classic());
-  double number = 0.0;
-  stream >> number;
-  if (stream.fail() || !(stream >> std::ws).eof()) refuse(info, value);
-  if (!(number >= info.minimum && number <= info.maximum)) refuse(info, value);
-  return number;
+double numberOf(const ParameterInfo& info, const std::string& value) {
+  const std::optional<double> number = parseNumber(value);
+  if (!number || !(*number >= info.minimum && *number <= info.maximum)) refuse(info, value);
+  return *number;
 }
 
 void parse(const ParameterInfo& info, const std::string& value, double& target) {
-  target = parseNumber(info, value);
+  target = numberOf(info, value);
 }
 
 void parse(const ParameterInfo& info, const std::string& value, int& target) {
-  const double number = parseNumber(info, value);
+  const double number = numberOf(info, value);
   if (number != std::floor(number)) refuse(info, value);
   target = static_cast<int>(number);
 }
 
 [[maybe_unused]] void parse(const ParameterInfo& info, const std::string& value, bool& target) {
-  if (value == "true" || value == "True" || value == "1") {
-    target = true;
-  } else if (value == "false" || value == "False" || value == "0") {
-    target = false;
-  } else {
-    refuse(info, value);
-  }
+  const std::optional<bool> answer = parseSwitch(value);
+  if (!answer) refuse(info, value);
+  target = *answer;
 }
 
 template <typename Enum>
