@@ -49,7 +49,12 @@ CommandLine::CommandLine(std::string program, std::string summary)
 }
 
 void CommandLine::argument(const std::string& name, std::string* target, const std::string& text) {
-  arguments_.push_back({name, target, text});
+  arguments_.push_back({name, target, nullptr, text});
+}
+
+void CommandLine::arguments(const std::string& name, std::vector<std::string>* targets,
+                            const std::string& text) {
+  arguments_.push_back({name + "...", nullptr, targets, text});
 }
 
 po::options_description_easy_init CommandLine::options() {
@@ -85,14 +90,30 @@ bool CommandLine::parse(int argc, const char* const* argv) {
   }
   std::vector<std::string> given;
   if (values_.count(kArguments) != 0) given = values_[kArguments].as<std::vector<std::string>>();
+  setArguments(given);
+  return true;
+}
+
+void CommandLine::setArguments(const std::vector<std::string>& given) {
   if (given.size() < arguments_.size()) {
     throw UsageError("argument " + arguments_[given.size()].name + " is missing");
   }
-  if (given.size() > arguments_.size()) {
+  const bool has_list = std::any_of(arguments_.begin(), arguments_.end(),
+                                    [](const Argument& argument) { return argument.targets; });
+  const std::size_t rest = given.size() - arguments_.size();
+  if (rest > 0 && !has_list) {
     throw UsageError("unexpected argument '" + given[arguments_.size()] + "'");
   }
-  for (std::size_t i = 0; i < given.size(); ++i) *arguments_[i].target = given[i];
-  return true;
+  auto next = given.begin();
+  for (const Argument& argument : arguments_) {
+    const auto first = next++;
+    if (argument.targets == nullptr) {
+      *argument.target = *first;
+    } else {
+      next += static_cast<std::ptrdiff_t>(rest);
+      argument.targets->assign(first, next);
+    }
+  }
 }
 
 std::vector<std::string> CommandLine::optionNames() const {

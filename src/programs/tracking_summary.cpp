@@ -126,6 +126,9 @@ void print(std::ostream& stream, const TrackingSummary& summary) {
   for (const auto& [reason, count] : summary.skipped) {
     stream << "skipped (" << reason << "): " << count << "\n";
   }
+  for (const auto& [reason, count] : summary.left_out) {
+    stream << "left_out (" << reason << "): " << count << "\n";
+  }
   stream << "keyframes: " << summary.keyframes << "\n"
          << "segments: " << summary.segments << "\n"
          << "rolling_shutter_readout_s: " << summary.rolling_shutter_readout << "\n"

@@ -25,6 +25,7 @@ struct TrackingSummary {
   std::size_t lost = 0;
   std::size_t skipped_frames = 0;  ///< that could not be read, or were refused
   CountByReason skipped;           ///< the same by reason
+  CountByReason left_out;          ///< images that became no frame, by reason
   CountByReason not_measured;      ///< of `frames`: initialising and lost ones by reason
   std::size_t motions = 0;         ///< frames measured against a keyframe
   int keyframes = 0;

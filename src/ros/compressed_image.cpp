@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Decoding of compressed images. The plugins of image_transport that would do it are not packaged
 // everywhere, and bags with compressed topics are the common ones.
+#include <cv_bridge/cv_bridge.h>
+
 #include <algorithm>
 #include <array>
 #include <cstring>
@@ -21,7 +23,7 @@ constexpr std::array<std::uint8_t, 8> kPngSignature = {0x89, 'P', 'N', 'G', '\r'
 constexpr std::array<std::uint8_t, 2> kJpegSignature = {0xff, 0xd8};
 constexpr std::array<std::uint8_t, 2> kJpegEnd = {0xff, 0xd9};
 constexpr std::array<std::uint8_t, 4> kPngEnd = {'I', 'E', 'N', 'D'};
-// An encoder may pad its output; the end mark is looked for in the last bytes only.
+// The end mark is looked for in the last bytes only, but for zeros with which encoders pad.
 constexpr std::ptrdiff_t kTailBytes = 64;
 
 // Header of compressedDepth: int32 format, then the two float parameters of the quantisation.
@@ -36,8 +38,10 @@ bool startsWith(const Bytes& data, std::size_t offset, const Signature& signatur
 
 template <typename Mark>
 bool endsWith(const Bytes& data, const Mark& mark) {
-  const auto tail = data.end() - std::min(kTailBytes, data.end() - data.begin());
-  return std::search(tail, data.end(), mark.begin(), mark.end()) != data.end();
+  const auto end =
+      std::find_if(data.rbegin(), data.rend(), [](std::uint8_t byte) { return byte != 0; }).base();
+  const auto tail = end - std::min(kTailBytes, end - data.begin());
+  return std::search(tail, end, mark.begin(), mark.end()) != end;
 }
 
 /// Decodes a JPEG or PNG that starts at `offset`. A decoder would return the part of a truncated
@@ -90,19 +94,108 @@ cv::Mat dequantise(const cv::Mat& quantised, float a, float b) {
   return depth;
 }
 
+/// RVL (A. D. Wilson, Fast Lossless Depth Image Compression, 2017) as
+/// compressed_depth_image_transport writes it: columns and rows as int32, then words of eight
+/// nibbles, the highest first. A number is nibbles of three bits, the lowest first, with the fourth
+/// set when more follow. Runs of zeros and of readings take turns; a reading is the zigzag
+/// difference to the one before.
+class RvlDecoder {
+ public:
+  RvlDecoder(const std::uint8_t* bytes, std::size_t size) : bytes_(bytes), words_(size / 4) {}
+
+  /// Throws Error when the numbers do not make an image of this size.
+  cv::Mat decode(int columns, int rows) {
+    cv::Mat image(rows, columns, CV_16UC1);
+    auto* depth = image.ptr<std::uint16_t>();
+    std::size_t left = image.total();
+    std::int64_t reading = 0;
+    while (left > 0) {
+      const std::size_t zeros = run(left);
+      depth = std::fill_n(depth, zeros, std::uint16_t{0});
+      left -= zeros;
+      const std::size_t readings = run(left);
+      left -= readings;
+      for (std::size_t i = 0; i < readings; ++i) {
+        const std::uint64_t zigzag = number();
+        reading += static_cast<std::int64_t>(zigzag >> 1) ^ -static_cast<std::int64_t>(zigzag & 1);
+        *depth++ = static_cast<std::uint16_t>(reading);
+      }
+      if (zeros + readings == 0 && left > 0) refuse();
+    }
+    return image;
+  }
+
+ private:
+  [[noreturn]] static void refuse() { throw Error("compressed depth: its RVL is damaged"); }
+
+  std::size_t run(std::size_t left) {
+    const std::uint64_t length = number();
+    if (length > left) refuse();
+    return static_cast<std::size_t>(length);
+  }
+
+  std::uint64_t number() {
+    std::uint64_t value = 0;
+    for (int shift = 0; shift < 60; shift += 3) {
+      const unsigned part = nibble();
+      value |= static_cast<std::uint64_t>(part & 7U) << shift;
+      if ((part & 8U) == 0) return value;
+    }
+    refuse();
+  }
+
+  unsigned nibble() {
+    if (nibbles_ == 0) {
+      if (next_ == words_) refuse();
+      std::memcpy(&word_, bytes_ + 4 * next_++, 4);
+      nibbles_ = 8;
+    }
+    return word_ >> 4 * --nibbles_ & 15U;
+  }
+
+  const std::uint8_t* bytes_;
+  std::size_t words_;
+  std::size_t next_ = 0;
+  std::uint32_t word_ = 0;
+  int nibbles_ = 0;  // of the word, left
+};
+
+cv::Mat decodeRvl(const Bytes& data) {
+  constexpr int kMaxSize = 16384;  // pixels
+  std::array<std::int32_t, 2> size{};
+  const std::size_t begin = kDepthHeaderBytes + sizeof(size);
+  if (data.size() < begin) throw Error("compressed depth: its RVL is truncated");
+  std::memcpy(size.data(), data.data() + kDepthHeaderBytes, sizeof(size));
+  if (size[0] <= 0 || size[1] <= 0 || size[0] > kMaxSize || size[1] > kMaxSize) {
+    throw Error("compressed depth: its RVL is of " + std::to_string(size[0]) + " x " +
+                std::to_string(size[1]) + " pixels");
+  }
+  return RvlDecoder(data.data() + begin, data.size() - begin).decode(size[0], size[1]);
+}
+
 }  // namespace
 
 ColourImage toColourImage(const sensor_msgs::CompressedImage& message) {
-  return {decode(message, 0), channelOrder(message.format)};
+  const cv::Mat image = decode(message, 0);
+  const std::string encoding = message.format.substr(0, message.format.find(';'));
+  if (image.channels() != 1 || encoding.rfind("bayer_", 0) != 0) {
+    return {image, channelOrder(message.format)};
+  }
+  sensor_msgs::Image mosaic;
+  cv_bridge::CvImage(message.header, encoding, image).toImageMsg(mosaic);
+  const ColourImage colour = toColourImage(mosaic);
+  return {colour.image.clone(), colour.order};
 }
 
 DepthImage toDepthImage(const sensor_msgs::CompressedImage& message) {
   const bool plain = startsWith(message.data, 0, kPngSignature);
-  if (!plain && !startsWith(message.data, kDepthHeaderBytes, kPngSignature)) {
+  const bool rvl = message.format.find("compressedDepth rvl") != std::string::npos;
+  if (!plain && !rvl && !startsWith(message.data, kDepthHeaderBytes, kPngSignature)) {
     throw Error("compressed depth of format '" + message.format +
-                "': expected PNG; JPEG loses depth, and RVL is not supported");
+                "': expected PNG or RVL; JPEG loses depth");
   }
-  const cv::Mat image = decode(message, plain ? 0 : kDepthHeaderBytes);
+  const cv::Mat image =
+      rvl ? decodeRvl(message.data) : decode(message, plain ? 0 : kDepthHeaderBytes);
   if (image.type() != CV_16UC1) {
     throw Error("compressed depth of format '" + message.format + "' has not 16 bits");
   }
