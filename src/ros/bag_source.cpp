@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/camera_doubt.h"
 #include "mivo/core/error.h"
 #include "ros/camera_conversion.h"
 #include "ros/clock_fault.h"
@@ -80,6 +81,7 @@ BagSource::BagSource(const std::vector<std::string>& paths, const RgbdTopics& wa
     const ImagePair first = messagesOf(pairs_.front());
     camera_ = toCamera(*first.camera_info, isRectifiedTopic(topics_.colour),
                        first.colour->toColourImage().image.size());
+    tell(doubtOf(camera_));
   } catch (const std::exception& error) {
     throw Error(recording_->name() + ": " + error.what());
   }

@@ -8,7 +8,6 @@
 #include <cmath>
 
 #include "mivo/core/error.h"
-#include "session/camera_doubt.h"
 
 namespace mivo {
 namespace {
@@ -118,10 +117,6 @@ Camera toCamera(const sensor_msgs::CameraInfo& message, bool rectified,
   } else {
     setPinhole(camera, info.K.data(), 3, "K");
     camera.distortion = toDistortion(info);
-  }
-  if (camera.width > 0 && camera.height > 0) {
-    const std::string doubt = findCameraDoubt(camera);
-    if (!doubt.empty()) throw Error("camera_info: " + doubt);
   }
   if (info.roi.width > 0 && info.roi.height > 0) cutOut(info.roi, camera);
   bin(std::max(1, static_cast<int>(info.binning_x)), std::max(1, static_cast<int>(info.binning_y)),

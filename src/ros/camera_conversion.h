@@ -16,7 +16,7 @@ bool isRectifiedTopic(const std::string& topic);
 /// Camera of a calibration: K and D for raw images, P for rectified ones; of the region and the
 /// binned pixels that the image has. Lens models: plumb_bob, rational_polynomial with 8
 /// coefficients, equidistant; any with zeros alone is a pinhole. Throws Error, with the remedy,
-/// when it is empty, contradicts itself, cannot be right (findCameraDoubt), or has another lens.
+/// when it is empty, contradicts itself, cannot be right (Camera::validate), or has another lens.
 /// @param image_size  of the images: what a message that says 0 x 0 means
 Camera toCamera(const sensor_msgs::CameraInfo& message, bool rectified,
                 const cv::Size& image_size = {});

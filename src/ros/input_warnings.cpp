@@ -6,6 +6,8 @@
 #include <cmath>
 #include <string>
 
+#include "core/camera_doubt.h"
+
 namespace mivo {
 namespace {
 
@@ -54,6 +56,13 @@ void InputWarnings::lookAtParent(TransformSource& transforms) {
       "%s has another parent in tf, %s: a frame cannot have two; set publish_tf to false, or "
       "guess_frame_id to %s",
       parameters_.base_frame.c_str(), parent.c_str(), parent.c_str());
+}
+
+void InputWarnings::lookAtCamera(const Camera& camera) {
+  if (has_warned_of_camera_) return;
+  const std::string doubt = doubtOf(camera);
+  has_warned_of_camera_ = !doubt.empty();
+  if (has_warned_of_camera_) ROS_WARN("camera_info: %s", doubt.c_str());
 }
 
 void InputWarnings::lookAtDepth(const DepthSample& depth) {

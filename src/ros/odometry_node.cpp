@@ -154,6 +154,7 @@ void OdometryNode::track(const ImagePair& pair, const MessageFrame& input, doubl
       transforms_.baseCamera(header.frame_id, header.stamp);
   guess_.look(header.stamp, T_base_camera);  // waits for tf: services must not wait for that too
   warnings_.lookAtFrames(pair, transforms_);
+  warnings_.lookAtCamera(input.camera);
 
   const std::lock_guard<std::mutex> lock(mutex_);
   const TrackingResult& result = follow(input);

@@ -143,6 +143,12 @@ TEST_F(BagStampsTest, ALeadingCalibrationOfZerosIsPassedOver) {
   EXPECT_ERROR(BagSource(path_, {}), "camera_info is not calibrated: all messages on /camera/rgb/");
 }
 
+TEST_F(BagStampsTest, ACalibrationOfAnotherSizeIsTold) {
+  write([](int, SmallBag::Messages& m) { m.info.K = {15.0, 0, 7.5, 0, 15.0, 5.5, 0, 0, 1}; });
+  EXPECT_NE(BagSource(path_, {}).notice().find("is the calibration for images of 16 x 12 pixels?"),
+            std::string::npos);
+}
+
 TEST_F(BagStampsTest, ACalibrationChangesOnlyWhenItDoes) {
   const auto camerasOf = [&] {
     BagSource source(path_, {});

@@ -174,15 +174,8 @@ TEST(CameraConversionTest, CalibrationsThatCannotBeRightAreRefused) {
     info.D.assign(5, 0.0);
     return info;
   };
-  EXPECT_ERROR(toCamera(with(262.5, 262.5, 159.75, 119.75), false), "is one for 320 x 240 pixels");
-  EXPECT_ERROR(toCamera(with(525.0, 525.0, 2000.0, -500.0), false), "is outside of the image");
-  EXPECT_ERROR(toCamera(with(5250.0, 5250.0, 319.5, 239.5), false), "field of view of 7 x 5");
-  // What a region cuts out may be as it likes.
-  sensor_msgs::CameraInfo info = with(525.0, 525.0, 319.5, 239.5);
-  info.roi.x_offset = 400;
-  info.roi.width = 240;
-  info.roi.height = 480;
-  EXPECT_DOUBLE_EQ(-80.5, toCamera(info, false).cx);
+  EXPECT_ERROR(toCamera(with(525.0, 525.0, 2000.0, -500.0), false), "lies outside of images");
+  EXPECT_ERROR(toCamera(with(5250.0, 5250.0, 319.5, 239.5), false), "span 6.9");
 }
 
 }  // namespace
