@@ -41,7 +41,7 @@ OdometryNode::OdometryNode(const ros::NodeHandle& node, const ros::NodeHandle& p
       guess_(transforms_, parameters_) {
   ros::NodeHandle service_node = withQueue(private_node, service_queue_);
   input_ = std::make_unique<FrameInput>(withQueue(private_node, input_queue_), parameters_,
-                                        [this](const ImagePair& pair) { frames_.push(pair); });
+                                        [this](const ImagePair& pair) { enqueue(pair); });
   frame_maker_.emplace(isRectifiedTopic(input_->colourTopic()));
   services_ =
       std::make_unique<OdometryServices>(service_node, static_cast<OdometryActions&>(*this));
@@ -71,6 +71,14 @@ OdometryNode::~OdometryNode() {
   for (const auto& [reason, number] : skipped_.counts().by_reason) {
     ROS_WARN_STREAM(number << " frames were skipped: " << reason);
   }
+}
+
+void OdometryNode::enqueue(const ImagePair& pair) {
+  frames_.push(pair);
+  if (parameters_.drop_frames || frames_.dropped() == 0) return;
+  ROS_WARN_THROTTLE(kLogPeriod,
+                    "more than %zu frames wait: the oldest are dropped, %lu so far; play slower",
+                    kMaxBacklog, static_cast<unsigned long>(frames_.dropped()));
 }
 
 void OdometryNode::work() {

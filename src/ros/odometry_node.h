@@ -44,6 +44,7 @@ class OdometryNode : private OdometryActions {
   ~OdometryNode();
 
  private:
+  void enqueue(const ImagePair& pair);
   void work();
   void process(ImagePair pair, bool is_new_time);
   void refuse(const ImagePair& pair, StampFault fault);
