@@ -7,9 +7,9 @@
 #include <array>
 #include <cstring>
 #include <limits>
-#include <opencv2/imgcodecs.hpp>
 #include <string>
 
+#include "io/image_decoding.h"
 #include "mivo/core/error.h"
 #include "mivo/core/frame.h"
 #include "ros/image_conversion.h"
@@ -21,11 +21,6 @@ using Bytes = std::vector<std::uint8_t>;
 
 constexpr std::array<std::uint8_t, 8> kPngSignature = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
 constexpr std::array<std::uint8_t, 2> kJpegSignature = {0xff, 0xd8};
-constexpr std::array<std::uint8_t, 2> kJpegEnd = {0xff, 0xd9};
-constexpr std::array<std::uint8_t, 4> kPngEnd = {'I', 'E', 'N', 'D'};
-// The end mark is looked for in the last bytes only, but for zeros with which encoders pad.
-constexpr std::ptrdiff_t kTailBytes = 64;
-
 // Header of compressedDepth: int32 format, then the two float parameters of the quantisation.
 constexpr std::size_t kDepthHeaderBytes = 12;
 
@@ -36,39 +31,14 @@ bool startsWith(const Bytes& data, std::size_t offset, const Signature& signatur
                     data.begin() + static_cast<std::ptrdiff_t>(offset));
 }
 
-template <typename Mark>
-bool endsWith(const Bytes& data, const Mark& mark) {
-  const auto end =
-      std::find_if(data.rbegin(), data.rend(), [](std::uint8_t byte) { return byte != 0; }).base();
-  const auto tail = end - std::min(kTailBytes, end - data.begin());
-  return std::search(tail, end, mark.begin(), mark.end()) != end;
-}
-
-/// Decodes a JPEG or PNG that starts at `offset`. A decoder would return the part of a truncated
-/// image that it could make sense of: its end is looked for first.
+/// Decodes a JPEG or PNG that starts at `offset`.
 cv::Mat decode(const sensor_msgs::CompressedImage& message, std::size_t offset) {
   const Bytes& data = message.data;
-  const bool png = startsWith(data, offset, kPngSignature);
-  const bool jpeg = startsWith(data, offset, kJpegSignature);
-  if (!png && !jpeg) {
-    throw Error("compressed image of format '" + message.format +
-                "': its data are neither JPEG nor PNG; record it raw or with another format");
+  const std::string name = "compressed image of format '" + message.format + "'";
+  if (!startsWith(data, offset, kPngSignature) && !startsWith(data, offset, kJpegSignature)) {
+    throw Error(name + ": its data are neither JPEG nor PNG; record it raw or with another format");
   }
-  if (png ? !endsWith(data, kPngEnd) : !endsWith(data, kJpegEnd)) {
-    throw Error("compressed image of format '" + message.format + "' is truncated");
-  }
-  const cv::Mat encoded(1, static_cast<int>(data.size() - offset), CV_8UC1,
-                        const_cast<std::uint8_t*>(data.data()) + offset);
-  cv::Mat image;
-  try {
-    image = cv::imdecode(encoded, cv::IMREAD_UNCHANGED);
-  } catch (const cv::Exception&) {
-    // A size beyond what it wants to decode; other damage gives an empty image.
-  }
-  if (image.empty()) {
-    throw Error("compressed image of format '" + message.format + "' is damaged");
-  }
-  return image;
+  return decodeImage(data.data() + offset, data.size() - offset, name);
 }
 
 /// Order of the channels after decoding. "rgb8; jpeg compressed bgr8" says how the pixels were

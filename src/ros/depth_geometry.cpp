@@ -22,8 +22,8 @@ std::string withoutSlash(const std::string& frame) {
 
 void add(const RecordedMessage& message, tf2::BufferCore& tree) {
   if (!message.is<tf2_msgs::TFMessage>()) return;
-  for (geometry_msgs::TransformStamped transform :
-       message.read<tf2_msgs::TFMessage>()->transforms) {
+  const auto transforms = message.read<tf2_msgs::TFMessage>();
+  for (geometry_msgs::TransformStamped transform : transforms->transforms) {
     transform.header.frame_id = withoutSlash(transform.header.frame_id);
     transform.child_frame_id = withoutSlash(transform.child_frame_id);
     if (transform.header.frame_id == transform.child_frame_id) continue;

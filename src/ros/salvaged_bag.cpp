@@ -6,6 +6,7 @@
 #include <rosbag/chunked_file.h>
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 
 #include "mivo/core/error.h"
@@ -15,7 +16,9 @@ namespace {
 
 constexpr char kMagic[] = "#ROSBAG V2.0\n";
 constexpr std::size_t kMagicSize = sizeof(kMagic) - 1;
-constexpr char kChunkField[] = "compression=";
+// A field of the header of a chunk, and of nothing else; the others may stand before it.
+constexpr std::array<std::uint8_t, 8> kChunkField = {4, 0, 0, 0, 'o', 'p', '=', 0x05};
+constexpr std::size_t kMostBefore = 100;  // bytes of the other fields
 // Headers hold a topic and a few numbers: more than this is damage.
 constexpr std::size_t kMaxHeader = std::size_t{1} << 20;
 // A chunk is 768 kB by default, or one message: more than this is damage.
@@ -146,23 +149,40 @@ std::size_t SalvagedBag::scanRecord(std::size_t position) {
   return begin + there;
 }
 
+/// Where the header of a chunk begins that has its field of the operation at a position; nothing
+/// when there is none.
+std::optional<std::size_t> SalvagedBag::headerAround(std::size_t field) const {
+  const std::size_t begin = field - std::min(field, kMostBefore);
+  const std::vector<std::uint8_t> part =
+      read(begin, std::min(file_size_ - begin, 2 * kMostBefore));
+  for (std::size_t at = field - begin; at >= 4; --at) {
+    const std::size_t size = number(part.data() + at - 4);
+    if (size < kChunkField.size() || at + size > part.size()) continue;
+    try {
+      const Fields fields = fieldsOf(part.data() + at, size);
+      if (operationOf(fields) == kChunk && fields.count("compression") > 0) return begin + at - 4;
+    } catch (const Damage&) {
+      // No header begins here.
+    }
+  }
+  return std::nullopt;
+}
+
 /// The next position at or after this one at which the record of a chunk begins.
 std::size_t SalvagedBag::findChunk(std::size_t position) {
-  const std::size_t length = sizeof(kChunkField) - 1;
-  constexpr std::size_t kBefore = 8;  // length of the header, length of the field
-  while (position < file_size_) {
+  const std::size_t first = position;
+  while (position + kChunkField.size() <= file_size_) {
     const std::vector<std::uint8_t> part =
         read(position, std::min(kSearchStep, file_size_ - position));
-    const auto found =
-        std::search(part.begin(), part.end(), kChunkField, kChunkField + length) - part.begin();
-    if (static_cast<std::size_t>(found) < part.size()) {
-      const std::size_t at = position + static_cast<std::size_t>(found);
-      if (at >= kBefore + position) return at - kBefore;
-      position = at + 1;
-    } else {
-      if (part.size() < kSearchStep) return file_size_;
-      position += part.size() - length - kBefore;
+    for (auto found = part.begin();;) {
+      found = std::search(found, part.end(), kChunkField.begin(), kChunkField.end());
+      if (found == part.end()) break;
+      const auto header = headerAround(position + static_cast<std::size_t>(found - part.begin()));
+      if (header && *header >= first) return *header;
+      ++found;
     }
+    if (part.size() < kSearchStep) return file_size_;
+    position += part.size() - kMostBefore;
   }
   return file_size_;
 }

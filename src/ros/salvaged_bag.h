@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <fstream>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -54,6 +55,7 @@ class SalvagedBag {
   void scan();
   std::size_t scanRecord(std::size_t position);
   std::size_t findChunk(std::size_t position);
+  std::optional<std::size_t> headerAround(std::size_t field) const;
   void scanChunk(const Chunk& chunk);
   void addConnection(const Fields& header, const std::uint8_t* data, std::size_t size);
   void load(const Chunk& chunk) const;
