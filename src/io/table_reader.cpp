@@ -79,8 +79,8 @@ bool TableReader::next() {
   while (readLine()) {
     split();
     if (fields_.empty()) continue;
-    if (record_[fields_.front().begin] != '#') return true;
-    if (first_comment_.empty()) first_comment_ = record_.substr(fields_.front().begin + 1);
+    if (record_[fields_.front().begin] != '#') return has_record_ = true;
+    if (!has_record_) comments_.push_back(record_.substr(fields_.front().begin + 1));
   }
   fields_.clear();
   return false;

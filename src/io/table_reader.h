@@ -28,8 +28,9 @@ class TableReader {
   /// blanks in them. Quotes around a single field are left out.
   std::string textOf(std::size_t first, std::size_t last) const;
 
-  /// The first line that was skipped for its '#', without it: the heading of a table, often.
-  const std::string& firstComment() const { return first_comment_; }
+  /// The lines that were skipped for their '#', without it, before the first record: one of them is
+  /// the heading of the table, often.
+  const std::vector<std::string>& comments() const { return comments_; }
 
   /// Whether the field is a finite number.
   bool isNumber(std::size_t field) const;
@@ -54,7 +55,8 @@ class TableReader {
   std::ifstream stream_;
   std::size_t line_ = 0;
   std::string record_;
-  std::string first_comment_;
+  std::vector<std::string> comments_;
+  bool has_record_ = false;
   std::vector<Field> fields_;
 };
 
