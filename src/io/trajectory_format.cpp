@@ -95,9 +95,9 @@ bool hasCommas(const TableReader& table) {
 }
 
 bool isEuroc(const TableReader& table) {
-  const bool has_columns = table.size() == kTumColumns || table.size() == kEurocColumns;
-  return has_columns && hasCommas(table) && table.isNumber(0) &&
-         table.number(0) > kNanosecondsOfToday;
+  if (!hasCommas(table)) return false;
+  return table.size() == kEurocColumns ||
+         (table.size() == kTumColumns && table.number(0) > kNanosecondsOfToday);
 }
 
 /// Reads the records of one file, the first of which says what they are.
@@ -181,6 +181,7 @@ class TrajectoryParser {
     for (const StampedPose& pose : file_.poses) stamps.push_back(pose.stamp);
     const double unit = stampUnit(stamps);
     for (StampedPose& pose : file_.poses) pose.stamp *= unit;
+    if (unit != 1.0 && format_ == Format::kTum) tell("its stamps are " + nameOfUnit(unit));
   }
 
   void tell(const std::string& text) { file_.notices.push_back(table_.path() + ": " + text); }

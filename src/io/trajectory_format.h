@@ -17,7 +17,7 @@ struct TrajectoryFile {
 
 /// Reads any of
 ///   TUM          `stamp tx ty tz qx qy qz qw`
-///   EuRoC        whole nanoseconds and commas, 8 or 17 columns, qw first
+///   EuRoC        commas and 17 columns, or 8 with nanoseconds of today; qw first
 ///   a heading    a line of names, after a # or not: columns are taken by their names
 ///   KITTI        12 numbers, the upper rows of the pose's matrix; stamps are the numbers of the
 ///   poses ROS 2 CSV    `sec,nanosec,frame,...,x,y,z,qx,qy,qz,qw,...`, as `ros2 topic echo --csv`

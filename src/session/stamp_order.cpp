@@ -8,11 +8,11 @@
 namespace mivo {
 namespace {
 
-// stamp > this many units: no time in seconds (the year 5138), but one in the smaller unit, of
-// today. Today is 1.7e9 s.
-constexpr double kMilliseconds = 1e11;
-constexpr double kMicroseconds = 1e14;
-constexpr double kNanoseconds = 1e17;
+// s; stamps of today, whatever their unit is: 1980 to 2128.
+constexpr double kEarliest = 3e8;
+constexpr double kLatest = 5e9;
+// s; images of today that are further apart are none: the unit is another.
+constexpr double kLongestGap = 10.0;
 // gap >= this: whole stamps of a clock that began with the recording. As seconds the images would
 // be days, or hours, apart; a camera of 1 to 200 Hz has these gaps in nano- and microseconds.
 constexpr double kNanosecondGap = 1e6;
@@ -27,6 +27,16 @@ double medianOf(std::vector<double> values) {
   return *middle;
 }
 
+/// Between stamps that follow each other and differ; 0 when none do.
+double medianGap(std::vector<double> stamps) {
+  std::sort(stamps.begin(), stamps.end());
+  std::vector<double> gaps;
+  for (std::size_t i = 1; i < stamps.size(); ++i) {
+    if (stamps[i] > stamps[i - 1]) gaps.push_back(stamps[i] - stamps[i - 1]);
+  }
+  return gaps.empty() ? 0.0 : medianOf(gaps);
+}
+
 }  // namespace
 
 void refuseEqualStamps(std::size_t count, double stamp) {
@@ -36,22 +46,23 @@ void refuseEqualStamps(std::size_t count, double stamp) {
 
 double stampUnit(std::vector<double> stamps) {
   stamps.erase(std::remove(stamps.begin(), stamps.end(), 0.0), stamps.end());
-  if (stamps.empty()) return 1.0;
-  std::sort(stamps.begin(), stamps.end());
-  const double middle = stamps[stamps.size() / 2];
-  if (middle > kNanoseconds) return 1e-9;
-  if (middle > kMicroseconds) return 1e-6;
-  if (middle > kMilliseconds) return 1e-3;
   const bool are_whole = std::all_of(stamps.begin(), stamps.end(),
                                      [](double stamp) { return stamp == std::floor(stamp); });
-  if (!are_whole) return 1.0;
-  std::vector<double> gaps;
-  for (std::size_t i = 1; i < stamps.size(); ++i) {
-    if (stamps[i] > stamps[i - 1]) gaps.push_back(stamps[i] - stamps[i - 1]);
+  if (stamps.empty() || !are_whole) return 1.0;
+  const double gap = medianGap(stamps);
+  const double middle = medianOf(stamps);
+  for (const double unit : {1.0, 1e-3, 1e-6, 1e-9}) {
+    const double seconds = unit * middle;
+    if (seconds > kEarliest && seconds < kLatest && unit * gap < kLongestGap) return unit;
   }
-  if (gaps.empty()) return 1.0;
-  const double gap = medianOf(gaps);
   return gap >= kNanosecondGap ? 1e-9 : gap >= kMicrosecondGap ? 1e-6 : 1.0;
+}
+
+std::string nameOfUnit(double unit) {
+  return unit == 1e-9   ? "nanoseconds"
+         : unit == 1e-6 ? "microseconds"
+         : unit == 1e-3 ? "milliseconds"
+                        : "seconds";
 }
 
 bool isZeroUnset(const std::vector<double>& stamps) {
@@ -66,10 +77,7 @@ std::string describe(const StampOrder& order, const std::string& items) {
   std::string text;
   const auto tell = [&](const std::string& more) { text += (text.empty() ? "" : "; ") + more; };
   if (order.unit != 1.0) {
-    const char* const unit = order.unit == 1e-9   ? "nanoseconds"
-                             : order.unit == 1e-6 ? "microseconds"
-                                                  : "milliseconds";
-    tell("the stamps of the " + items + " are " + unit);
+    tell("the stamps of the " + items + " are " + nameOfUnit(order.unit));
   }
   if (order.unset > 0) {
     tell(std::to_string(order.unset) + " of the " + items + " left out: their stamp is zero");

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "mivo/io/trajectory_io.h"
@@ -68,8 +69,10 @@ TEST_F(TrajectoryFormatTest, Tum) {
 }
 
 TEST_F(TrajectoryFormatTest, StampsOfOtherUnitsAreSeconds) {
-  for (const char* stamp : {"1600000001500", "1600000001500000", "1600000001500000000"}) {
-    expectPose(stamp + (" 1 -2 3.5 " + kXyzw), "");
+  for (const auto& [stamp, unit] : {std::make_pair("1600000001500", "milliseconds"),
+                                    {"1600000001500000", "microseconds"},
+                                    {"1600000001500000000", "nanoseconds"}}) {
+    expectPose(stamp + (" 1 -2 3.5 " + kXyzw), std::string("its stamps are ") + unit);
   }
 }
 
