@@ -34,6 +34,14 @@ function(mivo_program name)
   install(TARGETS ${name} RUNTIME DESTINATION lib/mivo)
 endfunction()
 
+# mivo_script(FILE): an executable script beside the programs.
+function(mivo_script file)
+  if(NOT EXISTS ${PROJECT_BINARY_DIR}/bin/${file})
+    file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR}/${file} ${PROJECT_BINARY_DIR}/bin/${file} SYMBOLIC)
+  endif()
+  install(PROGRAMS ${file} DESTINATION lib/mivo)
+endfunction()
+
 # Tests are compiled more often than they run; what they test is optimised.
 set(MIVO_TEST_OPTIONS -O1)
 

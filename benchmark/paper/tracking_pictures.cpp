@@ -6,7 +6,7 @@
 #include <string>
 
 #include "core/keyframe/keyframe.h"
-#include "io/png_file.h"
+#include "io/image_file.h"
 #include "mivo/core/error.h"
 #include "mivo/core/odometry.h"
 #include "mivo/io/sequence_reader.h"

@@ -13,18 +13,28 @@ std::string sizeText(int width, int height) {
   return std::to_string(width) + " x " + std::to_string(height);
 }
 
+/// The 8 highest of the bits of 16 that are used; larger values are white.
+cv::Mat highBits(const cv::Mat& image, int bits) {
+  const double step = std::ldexp(1.0, bits - 8);
+  cv::Mat high;
+  // Rounding after this shift is the same as dropping the low bits.
+  image.convertTo(high, CV_8U, 1.0 / step, 0.5 / step - 0.5);
+  return high;
+}
+
 }  // namespace
 
-cv::Mat toGrey(const cv::Mat& image, ChannelOrder order) {
+cv::Mat toGrey(const cv::Mat& image, ChannelOrder order, int bits) {
   const bool rgb = order == ChannelOrder::kRgb;
   cv::Mat grey;
   switch (image.type()) {
     case CV_8UC1:
       return image;
     case CV_16UC1:
-      // Rounding after this shift is the same as dropping the low byte.
-      image.convertTo(grey, CV_8U, 1.0 / 256.0, 1.0 / 512.0 - 0.5);
-      return grey;
+      return highBits(image, bits);
+    case CV_16UC3:
+    case CV_16UC4:
+      return toGrey(highBits(image, bits), order);
     case CV_8UC3:
       cv::cvtColor(image, grey, rgb ? cv::COLOR_RGB2GRAY : cv::COLOR_BGR2GRAY);
       return grey;
@@ -33,7 +43,7 @@ cv::Mat toGrey(const cv::Mat& image, ChannelOrder order) {
       return grey;
     default:
       throw Error("image of OpenCV type " + std::to_string(image.type()) +
-                  ": expected 8 bits with 1, 3 or 4 channels, or 16 bits with one");
+                  ": expected 8 or 16 bits with 1, 3 or 4 channels");
   }
 }
 

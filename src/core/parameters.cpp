@@ -7,9 +7,10 @@
 #include <cstdlib>
 #include <limits>
 #include <locale>
-#include <numeric>
 #include <sstream>
 
+#include "core/nearest_name.h"
+#include "core/plain_value.h"
 #include "mivo/core/error.h"
 
 namespace mivo {
@@ -60,34 +61,26 @@ std::string rangeText(const ParameterInfo& info) {
   throw Error("parameter '" + info.name + "': '" + value + "' is not " + rangeText(info));
 }
 
-double parseNumber(const ParameterInfo& info, const std::string& value) {
-  std::istringstream stream(value);
-  stream.imbue(std::locale::classic());
-  double number = 0.0;
-  stream >> number;
-  if (stream.fail() || !(stream >> std::ws).eof()) refuse(info, value);
-  if (!(number >= info.minimum && number <= info.maximum)) refuse(info, value);
-  return number;
+double numberOf(const ParameterInfo& info, const std::string& value) {
+  const std::optional<double> number = parseNumber(value);
+  if (!number || !(*number >= info.minimum && *number <= info.maximum)) refuse(info, value);
+  return *number;
 }
 
 void parse(const ParameterInfo& info, const std::string& value, double& target) {
-  target = parseNumber(info, value);
+  target = numberOf(info, value);
 }
 
 void parse(const ParameterInfo& info, const std::string& value, int& target) {
-  const double number = parseNumber(info, value);
+  const double number = numberOf(info, value);
   if (number != std::floor(number)) refuse(info, value);
   target = static_cast<int>(number);
 }
 
 [[maybe_unused]] void parse(const ParameterInfo& info, const std::string& value, bool& target) {
-  if (value == "true" || value == "True" || value == "1") {
-    target = true;
-  } else if (value == "false" || value == "False" || value == "0") {
-    target = false;
-  } else {
-    refuse(info, value);
-  }
+  const std::optional<bool> answer = parseSwitch(value);
+  if (!answer) refuse(info, value);
+  target = *answer;
 }
 
 template <typename Enum>
@@ -103,30 +96,13 @@ std::string printEnum(const ParameterInfo& info, Enum value) {
   return index < info.words.size() ? info.words[index] : std::string("?");
 }
 
-/// Fewest insertions, deletions and replacements of a character that turn a into b.
-std::size_t editDistance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), 0U);
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i + 1;
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
-    }
-  }
-  return row.back();
-}
-
 const ParameterInfo& find(const std::string& name) {
-  const std::vector<ParameterInfo>& table = parameterTable();
-  const ParameterInfo* nearest = &table.front();
-  for (const ParameterInfo& info : table) {
+  std::vector<std::string> known;
+  for (const ParameterInfo& info : parameterTable()) {
     if (info.name == name) return info;
-    if (editDistance(info.name, name) < editDistance(nearest->name, name)) nearest = &info;
+    known.push_back(info.name);
   }
-  throw Error("unknown parameter '" + name + "'; did you mean '" + nearest->name + "'?");
+  throw Error("unknown parameter '" + name + "'" + didYouMean(name, known));
 }
 
 std::vector<ParameterInfo> makeTable() {

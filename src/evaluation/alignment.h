@@ -11,4 +11,8 @@ namespace mivo {
 /// rotation about it is one of many.
 Eigen::Isometry3d rigidAlignment(const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to);
 
+/// The factor of `from` in the similarity, rotation, translation and scale, with the least sum of
+/// squares (Umeyama 1991). 1 when all points of `from` are the same.
+double similarityScale(const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to);
+
 }  // namespace mivo

@@ -2,7 +2,8 @@
 #include "evaluation/relative_pose_error.h"
 
 #include <cmath>
-#include <functional>
+#include <cstddef>
+#include <optional>
 
 #include "evaluation/stamps.h"
 #include "mivo/core/se3.h"
@@ -10,31 +11,17 @@
 namespace mivo {
 namespace {
 
-/// Errors from each pose i to pose partner(i); partner and i count in the sorted estimate.
-std::vector<RelativePoseError> errorsOfPairs(
-    const Trajectory& truth, const Trajectory& estimate, double max_time_difference,
-    const std::function<std::size_t(const std::vector<double>&, std::size_t)>& partner) {
-  std::vector<RelativePoseError> errors;
-  if (truth.empty()) return errors;
-  const Trajectory Q = sortedByStamp(truth);
-  const Trajectory P = sortedByStamp(estimate);
-  const std::vector<double> true_stamps = stampsOf(Q);
-  const std::vector<double> stamps = stampsOf(P);
-  for (std::size_t i = 0; i < P.size(); ++i) {
-    const std::size_t j = partner(stamps, i);
-    if (j + 1 >= P.size()) continue;
-    const StampedPose& Q_i = Q[nearestIndex(true_stamps, stamps[i])];
-    const StampedPose& Q_j = Q[nearestIndex(true_stamps, stamps[j])];
-    if (std::abs(Q_i.stamp - stamps[i]) > max_time_difference ||
-        std::abs(Q_j.stamp - stamps[j]) > max_time_difference) {
-      continue;
-    }
-    const Eigen::Isometry3d true_motion = Q_j.pose.inverse() * Q_i.pose;
-    const Eigen::Isometry3d motion = P[j].pose.inverse() * P[i].pose;
-    const Eigen::Isometry3d error = motion.inverse() * true_motion;
-    errors.push_back({stamps[i], error.translation().norm(), logSo3(error.linear()).norm()});
-  }
-  return errors;
+RelativePoseError measure(double stamp, const Eigen::Isometry3d& error) {
+  return {stamp, error.translation().norm(), logSo3(error.linear()).norm()};
+}
+
+/// Between the matched poses i and j, in the order of the paper.
+RelativePoseError errorBetween(const MatchedPoses& poses, std::size_t i, std::size_t j) {
+  const Trajectory& Q = poses.truth;
+  const Trajectory& P = poses.estimate;
+  const Eigen::Isometry3d true_motion = Q[i].pose.inverse() * Q[j].pose;
+  const Eigen::Isometry3d motion = P[i].pose.inverse() * P[j].pose;
+  return measure(P[i].stamp, true_motion.inverse() * motion);
 }
 
 }  // namespace
@@ -42,17 +29,48 @@ std::vector<RelativePoseError> errorsOfPairs(
 std::vector<RelativePoseError> relativePoseErrors(const Trajectory& truth,
                                                   const Trajectory& estimate, double delta,
                                                   double max_time_difference) {
-  return errorsOfPairs(truth, estimate, max_time_difference,
-                       [delta](const std::vector<double>& stamps, std::size_t i) {
-                         return nearestIndex(stamps, stamps[i] + delta);
-                       });
+  std::vector<RelativePoseError> errors;
+  if (truth.empty()) return errors;
+  const Trajectory Q = sortedByStamp(truth);
+  const Trajectory P = sortedByStamp(estimate);
+  const std::vector<double> true_stamps = stampsOf(Q);
+  const std::vector<double> stamps = stampsOf(P);
+  for (std::size_t i = 0; i < P.size(); ++i) {
+    const std::size_t j = nearestIndex(stamps, stamps[i] + delta);
+    if (j == i || j + 1 >= P.size()) continue;
+    const std::size_t true_i = nearestIndex(true_stamps, stamps[i]);
+    const std::size_t true_j = nearestIndex(true_stamps, stamps[j]);
+    if (true_i == true_j || std::abs(true_stamps[true_i] - stamps[i]) > max_time_difference ||
+        std::abs(true_stamps[true_j] - stamps[j]) > max_time_difference) {
+      continue;
+    }
+    const Eigen::Isometry3d true_motion = Q[true_j].pose.inverse() * Q[true_i].pose;
+    const Eigen::Isometry3d motion = P[j].pose.inverse() * P[i].pose;
+    errors.push_back(measure(stamps[i], motion.inverse() * true_motion));
+  }
+  return errors;
 }
 
-std::vector<RelativePoseError> frameToFrameErrors(const Trajectory& truth,
-                                                  const Trajectory& estimate,
-                                                  double max_time_difference) {
-  return errorsOfPairs(truth, estimate, max_time_difference,
-                       [](const std::vector<double>&, std::size_t i) { return i + 1; });
+std::vector<RelativePoseError> stepErrors(const MatchedPoses& poses) {
+  std::vector<RelativePoseError> errors;
+  for (std::size_t i = 1; i < poses.truth.size(); ++i) {
+    errors.push_back(errorBetween(poses, i - 1, i));
+  }
+  return errors;
+}
+
+std::vector<RelativePoseError> pathErrors(const MatchedPoses& poses, double delta) {
+  std::vector<RelativePoseError> errors;
+  std::optional<std::size_t> begin;
+  double path = 0.0;
+  for (std::size_t i = 1; i < poses.truth.size(); ++i) {
+    path += (poses.truth[i].pose.translation() - poses.truth[i - 1].pose.translation()).norm();
+    if (path < delta) continue;
+    if (begin) errors.push_back(errorBetween(poses, *begin, i));
+    begin = i;
+    path = 0.0;
+  }
+  return errors;
 }
 
 }  // namespace mivo

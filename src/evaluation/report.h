@@ -13,20 +13,25 @@ namespace mivo {
 
 struct EvaluationOptions {
   double delta = 1.0;                 ///< s, over which drift is measured
+  double delta_metres = 1.0;          ///< m of the true path, over which it is measured, too
   double max_time_difference = 0.02;  ///< s, between a pose and the true one it is compared with
 };
 
 /// Everything that is known about an estimate when the truth is.
 struct Evaluation {
   EvaluationOptions options;
-  std::size_t frames = 0;                ///< poses of the estimate
-  double coverage = 0.0;                 ///< duration of the estimate / duration of the truth
-  std::vector<RelativePoseError> drift;  ///< over options.delta
-  std::vector<RelativePoseError> frame_to_frame;  ///< from each pose to the next
+  std::size_t frames = 0;                     ///< poses of the estimate
+  double coverage = 0.0;                      ///< duration of the estimate / duration of the truth
+  std::vector<RelativePoseError> drift;       ///< over options.delta; may be empty, see notice
+  std::vector<RelativePoseError> steps;       ///< from each matched pose to the next
+  std::vector<RelativePoseError> path_drift;  ///< over options.delta_metres; none on shorter paths
   AbsoluteTrajectoryError absolute;
+  AbsoluteTrajectoryError scaled;  ///< the scale of the estimate being free
+  std::string notice;              ///< what could not be measured, and why; or empty
 };
 
-/// Throws Error when the trajectories have too few poses in common, or none is `delta` apart.
+/// Throws Error when the trajectories have too few poses in common, when the estimate is shorter
+/// than `delta`, or when `delta` is less than the time between two of its poses.
 Evaluation evaluate(const Trajectory& truth, const Trajectory& estimate,
                     const EvaluationOptions& options);
 

@@ -11,9 +11,13 @@
 namespace mivo {
 namespace {
 
-const char* const kFormat = "width height fx fy cx cy depth_units_per_metre [k1 k2 p1 p2 k3]";
+const char* const kFormat =
+    "width height fx fy cx cy depth_units_per_metre [k1 k2 p1 p2 k3 [k4 k5 k6] | equidistant k1 k2 "
+    "k3 k4]";
 constexpr std::size_t kPinholeFields = 7;
 constexpr std::size_t kDistortedFields = 12;
+constexpr std::size_t kRationalFields = 15;
+const char* const kEquidistant = "equidistant";
 constexpr int kMaxSize = 65536;  // pixels; a larger number is a mistake and would not fit
 
 int size(const TableReader& table, std::size_t field) {
@@ -24,13 +28,39 @@ int size(const TableReader& table, std::size_t field) {
   return static_cast<int>(value);
 }
 
+Distortion lens(const TableReader& table) {
+  const auto k = [&](std::size_t i) { return table.number(kPinholeFields + i); };
+  if (table.text(kPinholeFields) == kEquidistant) {
+    return {k(1), k(2), 0.0, 0.0, k(3), k(4), 0.0, 0.0, LensModel::kEquidistant};
+  }
+  Distortion polynomial = {k(0), k(1), k(2), k(3), k(4)};
+  if (table.size() == kRationalFields) {
+    polynomial.k4 = k(5);
+    polynomial.k5 = k(6);
+    polynomial.k6 = k(7);
+  }
+  return polynomial;
+}
+
+std::string lensText(const Distortion& d) {
+  if (d.isZero()) return {};
+  if (d.model == LensModel::kEquidistant) {
+    return fmt::format(" {} {:.17g} {:.17g} {:.17g} {:.17g}", kEquidistant, d.k1, d.k2, d.k3, d.k4);
+  }
+  std::string text =
+      fmt::format(" {:.17g} {:.17g} {:.17g} {:.17g} {:.17g}", d.k1, d.k2, d.p1, d.p2, d.k3);
+  if (d.isRational()) text += fmt::format(" {:.17g} {:.17g} {:.17g}", d.k4, d.k5, d.k6);
+  return text;
+}
+
 }  // namespace
 
 SequenceCamera readCamera(const std::string& path) {
   TableReader table(path);
   if (!table.next()) throw Error(path + " has no line '" + std::string(kFormat) + "'");
-  if (table.size() != kPinholeFields && table.size() != kDistortedFields) {
-    table.refuse(fmt::format("expected 7 or 12 numbers '{}', found {}", kFormat, table.size()));
+  if (table.size() != kPinholeFields && table.size() != kDistortedFields &&
+      table.size() != kRationalFields) {
+    table.refuse(fmt::format("expected 7, 12 or 15 numbers '{}', found {}", kFormat, table.size()));
   }
   SequenceCamera result;
   Camera& camera = result.camera;
@@ -41,9 +71,12 @@ SequenceCamera readCamera(const std::string& path) {
   camera.cx = table.number(4);
   camera.cy = table.number(5);
   result.depth_units_per_metre = table.number(6);
-  if (table.size() == kDistortedFields) {
-    camera.distortion = {table.number(7), table.number(8), table.number(9), table.number(10),
-                         table.number(11)};
+  if (table.size() > kPinholeFields) camera.distortion = lens(table);
+  if (camera.fy < 0.0) {
+    table.refuse(fmt::format(
+        "fy is {:g}: ICL-NUIM, among others, gives it so for a y axis that points up, with images "
+        "that lie as all do. Write {:g}; in the true poses ty, qx and qz change their signs then",
+        camera.fy, -camera.fy));
   }
   if (!(result.depth_units_per_metre > 0.0)) table.refuse("depth_units_per_metre is not positive");
   try {
@@ -57,14 +90,10 @@ SequenceCamera readCamera(const std::string& path) {
 
 void writeCamera(const std::string& path, const SequenceCamera& camera, Overwrite overwrite) {
   const Camera& c = camera.camera;
-  const Distortion& d = c.distortion;
-  std::string text =
+  const std::string text =
       fmt::format("# {}\n{} {} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g}", kFormat, c.width, c.height,
                   c.fx, c.fy, c.cx, c.cy, camera.depth_units_per_metre);
-  if (!d.isZero()) {
-    text += fmt::format(" {:.17g} {:.17g} {:.17g} {:.17g} {:.17g}", d.k1, d.k2, d.p1, d.p2, d.k3);
-  }
-  OutputFile(path, overwrite).write(text + "\n");
+  OutputFile(path, overwrite).write(text + lensText(c.distortion) + "\n");
 }
 
 std::optional<SequenceCamera> tumCamera(const std::string& folder_name) {

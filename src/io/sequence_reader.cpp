@@ -4,59 +4,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <filesystem>
+#include <opencv2/imgproc.hpp>
+#include <utility>
 
-#include "io/png_file.h"
-#include "io/table_reader.h"
+#include "core/camera_doubt.h"
+#include "io/image_file.h"
+#include "io/sequence_listing.h"
 #include "mivo/core/error.h"
-#include "session/stamp_order.h"
-#include "session/stamp_pairer.h"
+#include "session/grey_range.h"
 
 namespace mivo {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// One line of rgb.txt or depth.txt.
-struct ListedImage {
-  double stamp;
-  std::string path;
-};
-
-void addNotice(std::string& notice, const std::string& text) {
-  if (!notice.empty() && !text.empty()) notice += "; ";
-  notice += text;
-}
-
-/// Puts the lines of a file in the order of their stamps, and says so.
-template <typename Line>
-void orderLines(std::vector<Line>& lines, const fs::path& file, std::string& notice) {
-  try {
-    addNotice(notice, describe(putInOrder(lines), "lines of " + file.string()));
-  } catch (const Error& error) {
-    throw Error(file.string() + ": " + error.what());
-  }
-}
-
-std::vector<ListedImage> readImageList(const fs::path& folder, const char* name,
-                                       std::string& notice) {
-  std::vector<ListedImage> images;
-  const fs::path file = folder / name;
-  TableReader table(file.string());
-  while (table.next()) {
-    if (table.size() != 2) table.refuse("expected 'stamp path'");
-    images.push_back({table.number(0), (folder / table.text(1)).string()});
-  }
-  if (images.empty()) throw Error(file.string() + " lists no image");
-  orderLines(images, file, notice);
-  return images;
-}
-
-std::vector<double> stampsOf(const std::vector<ListedImage>& images) {
-  std::vector<double> stamps;
-  for (const ListedImage& image : images) stamps.push_back(image.stamp);
-  return stamps;
-}
 
 /// The text without what differs from frame to frame.
 std::string withoutPath(std::string text, const std::string& path, const char* name) {
@@ -64,154 +26,202 @@ std::string withoutPath(std::string text, const std::string& path, const char* n
   return begin == std::string::npos ? text : text.replace(begin, path.size(), name);
 }
 
-/// Name of the folder itself, also when it was given as "." or with a slash at its end.
-std::string folderName(const std::string& folder) {
-  const fs::path path = fs::canonical(folder);
-  return path.filename().string();
+std::string sizeText(const cv::Size& size) {
+  return fmt::format("{}x{}", size.width, size.height);
 }
 
-std::string sizeText(int width, int height) {
-  return fmt::format("{}x{}", width, height);
+cv::Size sizeOf(const Camera& camera) {
+  return {camera.width, camera.height};
 }
-std::string sizeText(const cv::Mat& image) {
-  return sizeText(image.cols, image.rows);
+
+/// The larger size is the smaller one times a whole number.
+bool isMultiple(const cv::Size& larger, const cv::Size& smaller) {
+  return smaller.width > 0 && larger.width > smaller.width && larger.width % smaller.width == 0 &&
+         larger.height % smaller.height == 0 &&
+         larger.width / smaller.width == larger.height / smaller.height;
+}
+
+/// The camera of the same images at another size; pixel centres are at whole numbers.
+Camera resized(const Camera& camera, const cv::Size& size) {
+  Camera result = camera;
+  const double x = static_cast<double>(size.width) / camera.width;
+  const double y = static_cast<double>(size.height) / camera.height;
+  result.width = size.width;
+  result.height = size.height;
+  result.fx *= x;
+  result.fy *= y;
+  result.cx = (camera.cx + 0.5) * x - 0.5;
+  result.cy = (camera.cy + 0.5) * y - 0.5;
+  return result;
+}
+
+SequenceListing list(const std::string& folder) {
+  try {
+    return listSequence(folder);
+  } catch (const fs::filesystem_error& error) {
+    throw Error("cannot read " + error.path1().string() + ": " + error.code().message());
+  }
+}
+
+/// A part of what is listed.
+void restrict(std::vector<ListedFrame>& frames, const FrameRange& range,
+              const std::string& folder) {
+  if (range.count == 0 || range.start >= frames.size()) {
+    throw Error(fmt::format(
+        "no frame left of {}: it has {}, numbered from 0, and frames from {} on were asked for",
+        folder, frames.size(), range.start));
+  }
+  const std::size_t count = std::min(range.count, frames.size() - range.start);
+  frames.erase(frames.begin(), frames.begin() + static_cast<std::ptrdiff_t>(range.start));
+  frames.resize(count);
+}
+
+/// Pixels as depth units, 0 where there is no reading.
+void decodeDepth(cv::Mat& depth, DepthCoding coding) {
+  if (coding == DepthCoding::kPlain) return;
+  for (int y = 0; y < depth.rows; ++y) {
+    auto* const row = depth.ptr<std::uint16_t>(y);
+    for (int x = 0; x < depth.cols; ++x) {
+      const unsigned value = row[x];
+      if (coding == DepthCoding::kRotated) {
+        row[x] = static_cast<std::uint16_t>(value >> 3 | value << 13);
+      } else if (value == 0xFFFF) {
+        row[x] = 0;
+      }
+    }
+  }
 }
 
 }  // namespace
 
-SequenceReader::SequenceReader(const std::string& folder, const FrameRange& range) {
-  if (!fs::exists(folder)) throw Error("there is no folder " + folder);
-  if (!fs::is_directory(folder)) throw Error(folder + " is no folder");
-  readCameraOf(folder);
-  if (fs::exists(fs::path(folder) / "associations.txt")) {
-    readEntries(folder);
-  } else {
-    pairEntries(folder);
-  }
-  if (range.count == 0 || range.start >= entries_.size()) {
-    throw Error(fmt::format(
-        "no frame left of {}: it has {}, numbered from 0, and frames from {} on were asked for",
-        folder, entries_.size(), range.start));
-  }
-  const std::size_t count = std::min(range.count, entries_.size() - range.start);
-  entries_.erase(entries_.begin(), entries_.begin() + static_cast<std::ptrdiff_t>(range.start));
-  entries_.resize(count);
-  probe();
-}
-
-void SequenceReader::readCameraOf(const std::string& folder) {
-  const fs::path file = fs::path(folder) / "camera.txt";
-  if (fs::exists(file)) {
-    camera_ = readCamera(file.string());
-    camera_file_ = "camera.txt";
-    return;
-  }
-  const std::string name = folderName(folder);
-  const auto known = tumCamera(name);
-  if (!known) {
-    throw Error(
-        folder +
-        " has no camera.txt, and its name is none of TUM's freiburg1, 2 or 3; write the line "
-        "'width height fx fy cx cy depth_units_per_metre [k1 k2 p1 p2 k3]' into camera.txt");
-  }
-  camera_ = *known;
-  camera_file_ = "TUM's published camera";
-  notice_ = folder +
-            " has no camera.txt: the published camera of TUM's sequences is taken, by the folder's "
-            "name " +
-            name +
-            fmt::format(" (fx {} fy {} cx {} cy {}, {} depth units per metre)", camera_.camera.fx,
-                        camera_.camera.fy, camera_.camera.cx, camera_.camera.cy,
-                        camera_.depth_units_per_metre);
-}
-
-void SequenceReader::readEntries(const std::string& folder) {
-  const fs::path base(folder);
-  TableReader table((base / "associations.txt").string());
-  while (table.next()) {
-    if (table.size() != 4) table.refuse("expected 'stamp_rgb path stamp_depth path'");
-    table.number(2);  // refused when it is no number; the frame has the stamp of its colour image
-    entries_.push_back(
-        {table.number(0), (base / table.text(1)).string(), (base / table.text(3)).string()});
-  }
-  if (entries_.empty()) throw Error(table.path() + " lists no frame");
-  orderLines(entries_, table.path(), notice_);
-}
-
-void SequenceReader::pairEntries(const std::string& folder) {
-  const std::vector<ListedImage> images = readImageList(folder, "rgb.txt", notice_);
-  const std::vector<ListedImage> depths = readImageList(folder, "depth.txt", notice_);
-  for (const auto& [i, j] : pairByStamp(stampsOf(images), stampsOf(depths))) {
-    entries_.push_back({images[i].stamp, images[i].path, depths[j].path});
-  }
-  if (entries_.empty()) {
-    throw Error(folder +
-                ": no depth image is within 20 ms of a colour image; the stamps of rgb.txt and "
-                "depth.txt differ");
-  }
-}
-
-void SequenceReader::probe() const {
-  std::string first_fault;
-  for (const Entry& entry : entries_) {
-    Frame frame;
-    try {
-      frame = read(entry);
-    } catch (const Error& error) {
-      if (first_fault.empty()) first_fault = error.what();
-      continue;
+/// Makes frames of what is listed.
+class SequenceReader::Images {
+ public:
+  /// Looks at the first frame that can be read: what the others have to be like. Throws Error when
+  /// there is none, or when its images do not fit the camera or each other.
+  explicit Images(SequenceListing listing) : listing_(std::move(listing)) {
+    std::string first_fault;
+    for (const ListedFrame& listed : listing_.frames) {
+      Frame frame;
+      try {
+        frame = decode(listed);
+      } catch (const Error& error) {
+        if (first_fault.empty()) first_fault = error.what();
+        continue;
+      }
+      fit(frame, listed);
+      const std::string doubt = doubtOf(listing_.camera.camera);
+      if (!doubt.empty()) listing_.notices.push_back(listing_.camera_file + ": " + doubt);
+      return;
     }
-    const std::string fault = sizeFault(frame, entry);
-    if (!fault.empty()) throw Error(fault);
-    return;
+    throw Error(
+        fmt::format("none of the {} frames can be read: {}", listing_.frames.size(), first_fault));
   }
-  throw Error(fmt::format("none of the {} frames can be read: {}", entries_.size(), first_fault));
+
+  const SequenceListing& listing() const { return listing_; }
+
+  /// Throws Error when an image cannot be read, or is not what the first ones were.
+  Frame read(const ListedFrame& listed) {
+    Frame frame = decode(listed);
+    if (frame.image.size() != image_size_) refuseSize(listed.image_path, frame.image);
+    if (frame.depth.size() != depth_size_) refuseSize(listed.depth_path, frame.depth);
+    if (image_size_ != depth_size_) {
+      cv::resize(frame.image, frame.image, depth_size_, 0.0, 0.0, cv::INTER_AREA);
+    }
+    return frame;
+  }
+
+ private:
+  /// Images as they are stored, with values as a frame has them.
+  Frame decode(const ListedFrame& listed) {
+    Frame frame;
+    frame.stamp = listed.stamp;
+    const cv::Mat image = readImage(listed.image_path);
+    try {
+      frame.image = toGrey(image, ChannelOrder::kBgr, range_.include(image));
+    } catch (const Error& error) {
+      throw Error(listed.image_path + ": " + error.what());
+    }
+    frame.depth = readImage(listed.depth_path);
+    if (frame.depth.type() != CV_16UC1) {
+      throw Error(listed.depth_path + " is no 16-bit image with one channel, as depth has to be");
+    }
+    decodeDepth(frame.depth, listing_.depth_coding);
+    frame.depth_unit = 1.0 / listing_.camera.depth_units_per_metre;
+    return frame;
+  }
+
+  void fit(const Frame& frame, const ListedFrame& listed) {
+    image_size_ = frame.image.size();
+    depth_size_ = frame.depth.size();
+    const bool is_reduced = image_size_ != depth_size_ &&
+                            (listing_.is_colour_reduced || isMultiple(image_size_, depth_size_));
+    Camera& camera = listing_.camera.camera;
+    if (camera.width == 0) setSize(camera, is_reduced ? depth_size_ : image_size_);
+    if (sizeOf(camera) != image_size_ && !(is_reduced && sizeOf(camera) == depth_size_)) {
+      refuseSize(listed.image_path, frame.image);
+    }
+    if (!is_reduced && depth_size_ != image_size_) {
+      throw Error(fmt::format(
+          "{} has {} pixels, but the colour image {}: the depth is not registered to the colour "
+          "camera",
+          listed.depth_path, sizeText(depth_size_), sizeText(image_size_)));
+    }
+    if (!is_reduced) return;
+    camera = resized(camera, depth_size_);
+    listing_.notices.push_back(
+        fmt::format("colour of {} pixels is reduced to the size of depth, {}",
+                    sizeText(image_size_), sizeText(depth_size_)));
+  }
+
+  /// Of an intrinsics file, which does not say for which size it is.
+  void setSize(Camera& camera, const cv::Size& size) const {
+    camera.width = size.width;
+    camera.height = size.height;
+    try {
+      camera.validate();
+    } catch (const Error& error) {
+      throw Error(listing_.camera_file + ": " + error.what());
+    }
+  }
+
+  [[noreturn]] void refuseSize(const std::string& path, const cv::Mat& image) const {
+    throw Error(fmt::format("{} has {} pixels, but the camera {}", path, sizeText(image.size()),
+                            sizeText(sizeOf(listing_.camera.camera))));
+  }
+
+  SequenceListing listing_;
+  cv::Size image_size_;
+  cv::Size depth_size_;
+  GreyRange range_;
+};
+
+SequenceReader::SequenceReader(const std::string& folder, const FrameRange& range) {
+  std::error_code ignored;  // what cannot be looked at fails, with its reason, when it is listed
+  if (!fs::exists(folder, ignored)) throw Error("there is no folder " + folder);
+  if (!fs::is_directory(folder, ignored)) throw Error(folder + " is no folder");
+  SequenceListing listing = list(folder);
+  restrict(listing.frames, range, folder);
+  images_ = std::make_unique<Images>(std::move(listing));
+  camera_ = images_->listing().camera;
+  camera_file_ = images_->listing().camera_file;
+  count_ = images_->listing().frames.size();
+  notice_ = fmt::format("{}", fmt::join(images_->listing().notices, "; "));
 }
 
-Frame SequenceReader::read(const Entry& entry) const {
-  Frame frame;
-  frame.stamp = entry.stamp;
-  const cv::Mat image = readPng(entry.image_path);
-  try {
-    frame.image = toGrey(image, ChannelOrder::kBgr);
-  } catch (const Error& error) {
-    throw Error(entry.image_path + ": " + error.what());
-  }
-  frame.depth = readPng(entry.depth_path);
-  if (frame.depth.type() != CV_16UC1) {
-    throw Error(entry.depth_path + " is no 16-bit image with one channel, as depth has to be");
-  }
-  frame.depth_unit = 1.0 / camera_.depth_units_per_metre;
-  return frame;
-}
-
-std::string SequenceReader::sizeFault(const Frame& frame, const Entry& entry) const {
-  const Camera& camera = camera_.camera;
-  if (frame.image.cols != camera.width || frame.image.rows != camera.height) {
-    return entry.image_path + " has " + sizeText(frame.image) + " pixels, but the camera " +
-           sizeText(camera.width, camera.height);
-  }
-  if (frame.depth.size() != frame.image.size()) {
-    return entry.depth_path + " has " + sizeText(frame.depth) + " pixels, but the colour image " +
-           sizeText(frame.image) + ": the depth is not registered to the colour camera";
-  }
-  return {};
-}
+SequenceReader::~SequenceReader() = default;
 
 FrameSource::Status SequenceReader::next(Frame& frame, FrameFault& fault) {
-  if (next_ >= entries_.size()) return Status::kEnd;
-  const Entry& entry = entries_[next_++];
-  std::string text;
+  if (next_ >= count_) return Status::kEnd;
+  const ListedFrame& listed = images_->listing().frames[next_++];
   try {
-    frame = read(entry);
-    text = sizeFault(frame, entry);
+    frame = images_->read(listed);
+    return Status::kFrame;
   } catch (const Error& error) {
-    text = error.what();
+    fault.text = error.what();
   }
-  if (text.empty()) return Status::kFrame;
-  fault.text = text;
-  fault.reason = withoutPath(withoutPath(text, entry.image_path, "the colour image"),
-                             entry.depth_path, "the depth image");
+  fault.reason = withoutPath(withoutPath(fault.text, listed.image_path, "the colour image"),
+                             listed.depth_path, "the depth image");
   return Status::kSkipped;
 }
 

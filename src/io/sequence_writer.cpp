@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <limits>
 
-#include "io/png_file.h"
+#include "io/image_file.h"
 #include "mivo/core/error.h"
 
 namespace mivo {

@@ -2,6 +2,7 @@
 #include <iostream>
 #include <opencv2/imgproc.hpp>
 #include <string>
+#include <vector>
 
 #include "io/sequence_writer.h"
 #include "mivo/core/error.h"
@@ -12,8 +13,10 @@
 
 namespace {
 
-/// Grey stays as it is; colour with blue first, as image files are written.
-cv::Mat toBgr(const mivo::ColourImage& colour) {
+/// Grey stays as it is; colour with blue first, as image files are written, and of 16 bits as the
+/// grey that the tracker sees.
+cv::Mat toBgr(mivo::BagSource& source, const mivo::ColourImage& colour) {
+  if (colour.image.depth() == CV_16U && colour.image.channels() > 1) return source.toGrey(colour);
   const bool rgb = colour.order == mivo::ChannelOrder::kRgb;
   cv::Mat image = colour.image;
   if (image.channels() == 3 && rgb) cv::cvtColor(colour.image, image, cv::COLOR_RGB2BGR);
@@ -28,8 +31,8 @@ void writeFrames(mivo::BagSource& source, mivo::SequenceWriter& writer) {
   std::size_t written = 0;
   for (const mivo::BagSource::Pair& pair : source.pairs()) {
     try {
-      const mivo::BagSource::Images images = source.read(pair);
-      writer.writeFrame(pair.colour.stamp, toBgr(images.colour), pair.depth.stamp,
+      const mivo::MessageImages images = source.read(pair);
+      writer.writeFrame(pair.colour.stamp, toBgr(source, images.colour), pair.depth.stamp,
                         images.depth.image);
       ++written;
     } catch (const mivo::Error& error) {
@@ -44,7 +47,7 @@ void writeFrames(mivo::BagSource& source, mivo::SequenceWriter& writer) {
 
 void run(int argc, char** argv) {
   namespace po = boost::program_options;
-  std::string bag;
+  std::vector<std::string> bags;
   std::string folder;
   mivo::RgbdTopics topics;
   bool force = false;
@@ -52,13 +55,15 @@ void run(int argc, char** argv) {
       "bag_to_sequence",
       "Writes the frames of a bag as a sequence folder. Depth in millimetres stays "
       "as it is, depth in metres gets 5000 units per metre.");
-  line.argument("BAG", &bag, "a bag with colour images, registered depth images and camera_info");
+  line.arguments(
+      "BAG", &bags,
+      "a bag with colour images, depth images and camera_info; several are one recording");
   line.argument("FOLDER", &folder, "the sequence");
   mivo::declareTopics(line, &topics);
   line.options()("force", po::bool_switch(&force), "replace a sequence that is in the folder");
   if (!line.parse(argc, argv)) return;
 
-  mivo::BagSource source(bag, topics);
+  mivo::BagSource source(bags, topics);
   if (!source.notice().empty()) {
     std::cerr << "bag_to_sequence: note: " << source.notice() << "\n";
   }

@@ -7,6 +7,8 @@
 #include <sstream>
 #include <utility>
 
+#include "core/nearest_name.h"
+
 namespace mivo {
 namespace {
 
@@ -29,17 +31,30 @@ std::string oneLine(std::string text) {
   return text;
 }
 
+std::string beforeEquals(const std::string& option) {
+  return option.substr(0, option.find('='));
+}
+
+std::string withoutDashes(const std::string& option) {
+  return option.substr(std::min(option.find_first_not_of('-'), option.size()));
+}
+
 }  // namespace
 
 CommandLine::CommandLine(std::string program, std::string summary)
     : program_(std::move(program)),
       summary_(std::move(summary)),
       visible_("Options", kHelpWidth, kHelpWidth / 2) {
-  visible_.add_options()("help", "print this text")("version", "print the version");
+  visible_.add_options()("help,h", "print this text")("version", "print the version");
 }
 
 void CommandLine::argument(const std::string& name, std::string* target, const std::string& text) {
-  arguments_.push_back({name, target, text});
+  arguments_.push_back({name, target, nullptr, text});
+}
+
+void CommandLine::arguments(const std::string& name, std::vector<std::string>* targets,
+                            const std::string& text) {
+  arguments_.push_back({name + "...", nullptr, targets, text});
 }
 
 po::options_description_easy_init CommandLine::options() {
@@ -66,19 +81,45 @@ bool CommandLine::parse(int argc, const char* const* argv) {
       return false;
     }
     po::notify(values_);
+  } catch (const po::unknown_option& error) {
+    const std::string option = beforeEquals(error.get_option_name());
+    throw UsageError("unknown option '" + option + "'" +
+                     didYouMean(withoutDashes(option), optionNames(), "'--"));
   } catch (const po::error& error) {
     throw UsageError(error.what());
   }
   std::vector<std::string> given;
   if (values_.count(kArguments) != 0) given = values_[kArguments].as<std::vector<std::string>>();
+  setArguments(given);
+  return true;
+}
+
+void CommandLine::setArguments(const std::vector<std::string>& given) {
   if (given.size() < arguments_.size()) {
     throw UsageError("argument " + arguments_[given.size()].name + " is missing");
   }
-  if (given.size() > arguments_.size()) {
+  const bool has_list = std::any_of(arguments_.begin(), arguments_.end(),
+                                    [](const Argument& argument) { return argument.targets; });
+  const std::size_t rest = given.size() - arguments_.size();
+  if (rest > 0 && !has_list) {
     throw UsageError("unexpected argument '" + given[arguments_.size()] + "'");
   }
-  for (std::size_t i = 0; i < given.size(); ++i) *arguments_[i].target = given[i];
-  return true;
+  auto next = given.begin();
+  for (const Argument& argument : arguments_) {
+    const auto first = next++;
+    if (argument.targets == nullptr) {
+      *argument.target = *first;
+    } else {
+      next += static_cast<std::ptrdiff_t>(rest);
+      argument.targets->assign(first, next);
+    }
+  }
+}
+
+std::vector<std::string> CommandLine::optionNames() const {
+  std::vector<std::string> names;
+  for (const auto& option : visible_.options()) names.push_back(option->long_name());
+  return names;
 }
 
 bool CommandLine::has(const std::string& option) const {

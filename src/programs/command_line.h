@@ -16,7 +16,8 @@ class UsageError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The command line of one program: required arguments in order, options, `--help`, `--version`.
+/// The command line of one program: required arguments in order, options, `--help` (`-h`),
+/// `--version`. An unknown option is answered with the nearest known one.
 ///
 ///   int main(int argc, char** argv) {
 ///     return mivo::runProgram("count_frames", [&] {
@@ -36,6 +37,11 @@ class CommandLine {
   /// Adds a required argument without a name; they are given in the order of these calls.
   void argument(const std::string& name, std::string* target, const std::string& text);
 
+  /// The same for one or more of a kind: all that are given but those of the other arguments. To be
+  /// called once at most.
+  void arguments(const std::string& name, std::vector<std::string>* targets,
+                 const std::string& text);
+
   /// Adds options in Boost's way: `options()("name", value<...>(...), "text")("other", ...)`.
   boost::program_options::options_description_easy_init options();
 
@@ -52,9 +58,13 @@ class CommandLine {
  private:
   struct Argument {
     std::string name;
-    std::string* target;
+    std::string* target;  ///< one of the two is set
+    std::vector<std::string>* targets;
     std::string text;
   };
+  std::vector<std::string> optionNames() const;
+  void setArguments(const std::vector<std::string>& given);
+
   std::string program_;
   std::string summary_;
   std::vector<Argument> arguments_;

@@ -5,19 +5,24 @@
 
 #include "evaluation/evaluation_plot.h"
 #include "evaluation/report.h"
-#include "io/png_file.h"
 #include "mivo/io/output_file.h"
-#include "mivo/io/trajectory_io.h"
 #include "programs/command_line.h"
+#include "programs/output_paths.h"
+#include "programs/plot_script.h"
+#include "programs/trajectory_pair.h"
 
 namespace {
 
 namespace po = boost::program_options;
 
-void requirePositive(const char* option, double value) {
+void requirePositive(const std::string& option, double value, const std::string& unit) {
   if (!std::isfinite(value) || !(value > 0.0)) {
-    throw mivo::UsageError("--" + std::string(option) + " must be a positive number of seconds");
+    throw mivo::UsageError("--" + option + " must be a positive number of " + unit);
   }
+}
+
+void tell(const std::string& note) {
+  if (!note.empty()) std::cerr << "evaluate_trajectory: note: " << note << "\n";
 }
 
 void run(int argc, char** argv) {
@@ -30,32 +35,39 @@ void run(int argc, char** argv) {
   mivo::CommandLine line("evaluate_trajectory",
                          "Compares an estimated trajectory with the truth: relative pose error and "
                          "absolute trajectory error.");
-  line.argument("TRUTH", &truth_path, "true trajectory, lines 'stamp tx ty tz qx qy qz qw'");
-  line.argument("ESTIMATE", &estimate_path, "estimated trajectory, in the same format");
+  line.argument("TRUTH", &truth_path, "true trajectory: TUM, EuRoC, KITTI or ROS 2 CSV");
+  line.argument("ESTIMATE", &estimate_path, "estimated trajectory, in any of these formats");
   line.options()("delta", po::value(&options.delta)->default_value(options.delta, "1"),
                  "drift is measured over this time, seconds")(
+      "delta-metres", po::value(&options.delta_metres)->default_value(options.delta_metres, "1"),
+      "and over this length of the true path, metres")(
       "max-time-difference",
       po::value(&options.max_time_difference)->default_value(options.max_time_difference, "0.02"),
       "poses further apart in time than this are not compared, seconds")(
       "json", po::value(&json_path)->value_name("FILE"), "write the figures as JSON, too")(
-      "plot", po::value(&plot_path)->value_name("FILE.png"), "draw paths and errors")(
-      "force", po::bool_switch(&force), "replace existing files");
+      "plot", po::value(&plot_path)->value_name("FILE.png|.pdf|.svg"),
+      "draw paths and errors (needs Python with matplotlib)")("force", po::bool_switch(&force),
+                                                              "replace existing files");
   if (!line.parse(argc, argv)) return;
-  requirePositive("delta", options.delta);
-  requirePositive("max-time-difference", options.max_time_difference);
+  requirePositive("delta", options.delta, "seconds");
+  requirePositive("delta-metres", options.delta_metres, "metres");
+  requirePositive("max-time-difference", options.max_time_difference, "seconds");
+  if (!plot_path.empty()) mivo::requirePlotEnding("--plot", plot_path);
+  const mivo::Overwrite overwrite = force ? mivo::Overwrite::kYes : mivo::Overwrite::kNo;
+  mivo::requireOutputs({{"--json", json_path}, {"--plot", plot_path}},
+                       {{"TRUTH", truth_path}, {"ESTIMATE", estimate_path}}, overwrite);
 
-  const mivo::Trajectory truth = mivo::readTrajectory(truth_path);
-  const mivo::Trajectory estimate = mivo::readTrajectory(estimate_path);
-  const mivo::Evaluation evaluation = mivo::evaluate(truth, estimate, options);
+  const mivo::TrajectoryPair files = mivo::readTrajectoryPair(truth_path, estimate_path);
+  for (const std::string& notice : files.notices) tell(notice);
+  const mivo::Evaluation evaluation = mivo::evaluate(files.truth, files.estimate, options);
   const std::vector<mivo::Figure> figures = figuresOf(evaluation);
 
-  const mivo::Overwrite overwrite = force ? mivo::Overwrite::kYes : mivo::Overwrite::kNo;
-  if (!json_path.empty()) mivo::refuseExisting(json_path, overwrite);
-  if (!plot_path.empty()) mivo::refuseExisting(plot_path, overwrite);
   std::cout << toText(figures) << std::flush;
+  tell(evaluation.notice);
   if (!json_path.empty()) mivo::OutputFile(json_path, overwrite).write(toJson(figures));
   if (!plot_path.empty()) {
-    mivo::writePng(plot_path, mivo::drawEvaluation(truth, estimate, evaluation), overwrite);
+    mivo::runPlotScript("plot_evaluation", plot_path,
+                        mivo::plotDataOf(files.truth, files.estimate, evaluation));
   }
 }
 

@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "io/png_file.h"
+#include "io/image_file.h"
 #include "io/sequence_writer.h"
 #include "mivo/core/error.h"
 #include "mivo/io/output_file.h"
@@ -31,6 +31,8 @@ struct Request {
   int width = 640;
   int height = 480;
   std::string distortion;
+  std::string lens = "polynomial";
+  double field_of_view = 0.0;  // degrees; 0: an Xtion's
   std::vector<double> depth_offset;
   std::vector<double> blind;
   std::string transfer = "srgb";
@@ -77,8 +79,13 @@ void addSequenceOptions(mivo::CommandLine& line, Request& request) {
                                                        "pixels")(
       "blind", mivo::twoNumbers(&request.blind)->value_name("FIRST COUNT"),
       "before and after these frames a scene of one surface is textured")(
-      "distortion", po::value(&request.distortion)->value_name("K1,K2,P1,P2,K3"),
-      "lens distortion, five numbers with commas and no blanks; none by default")(
+      "lens", po::value(&request.lens)->default_value(request.lens)->value_name("NAME"),
+      "polynomial (plumb_bob, rational_polynomial) or equidistant (fisheye)")(
+      "distortion", po::value(&request.distortion)->value_name("K1,K2,P1,P2,K3[,K4,K5,K6]"),
+      "lens distortion, five or eight numbers with commas and no blanks, or K1,K2,K3,K4 of an "
+      "equidistant lens; none by default")("field-of-view",
+                                           number(request.field_of_view, "an Xtion's"),
+                                           "degrees, horizontal, before a polynomial distorts it")(
       "threads", number(request.threads, "all cores"), "threads; the images do not depend on it")(
       "force", po::bool_switch(&request.force), "replace an existing sequence");
 }
@@ -126,7 +133,7 @@ void addDepthOptions(mivo::CommandLine& line, Request& request) {
       "s, by which depth is taken later than colour; negative: earlier");
 }
 
-mivo::Distortion parseDistortion(const std::string& text) {
+std::vector<double> parseNumbers(const std::string& text) {
   std::vector<double> numbers;
   std::istringstream stream(text);
   for (std::string field; std::getline(stream, field, ',');) {
@@ -137,16 +144,44 @@ mivo::Distortion parseDistortion(const std::string& text) {
     }
     numbers.push_back(value);
   }
-  if (numbers.size() != 5) {
-    throw mivo::UsageError("--distortion needs five numbers: k1,k2,p1,p2,k3");
+  return numbers;
+}
+
+mivo::Distortion parseDistortion(const std::string& text, bool equidistant) {
+  std::vector<double> d = parseNumbers(text);
+  mivo::Distortion lens;
+  if (equidistant) {
+    if (!d.empty() && d.size() != 4) {
+      throw mivo::UsageError("--distortion of an equidistant lens needs four numbers: k1,k2,k3,k4");
+    }
+    d.resize(4);
+    lens.model = mivo::LensModel::kEquidistant;
+    lens.k1 = d[0];
+    lens.k2 = d[1];
+    lens.k3 = d[2];
+    lens.k4 = d[3];
+    return lens;
   }
-  mivo::Distortion distortion;
-  distortion.k1 = numbers[0];
-  distortion.k2 = numbers[1];
-  distortion.p1 = numbers[2];
-  distortion.p2 = numbers[3];
-  distortion.k3 = numbers[4];
-  return distortion;
+  if (!d.empty() && d.size() != 5 && d.size() != 8) {
+    throw mivo::UsageError(
+        "--distortion needs five numbers, k1,k2,p1,p2,k3, or eight with "
+        "k4,k5,k6");
+  }
+  d.resize(8);
+  return {d[0], d[1], d[2], d[3], d[4], d[5], d[6], d[7]};
+}
+
+void setLens(const Request& request, mivo::Camera& camera) {
+  const bool equidistant = request.lens == "equidistant";
+  camera.distortion = parseDistortion(request.distortion, equidistant);
+  const double degrees = request.field_of_view;
+  if (degrees == 0.0) return;
+  if (!(degrees >= 10.0 && degrees < (equidistant ? 180.0 : 170.0))) {
+    throw mivo::UsageError("--field-of-view: degrees of a lens that there is are needed");
+  }
+  const double edge = 0.5 * degrees * M_PI / 180.0;  // rad, of the ray at the image's side
+  const double radius = equidistant ? camera.distort({std::tan(edge), 0.0}).x() : std::tan(edge);
+  camera.fx = camera.fy = 0.5 * camera.width / radius;
 }
 
 int wholeNumber(const std::string& option, double value) {
@@ -166,7 +201,8 @@ mivo::GeneratorOptions generatorOptions(Request& request, const mivo::CommandLin
     throw mivo::UsageError("images must be at least 16 x 16");
   if (request.threads < 0) throw mivo::UsageError("--threads must not be negative");
   g.camera = mivo::xtionCamera(request.width, request.height);
-  if (!request.distortion.empty()) g.camera.distortion = parseDistortion(request.distortion);
+  requireName("lens", request.lens, {"polynomial", "equidistant"});
+  setLens(request, g.camera);
   if (!request.blind.empty()) {
     g.blind_from = wholeNumber("blind", request.blind[0]);
     g.blind_frames = wholeNumber("blind", request.blind[1]);

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "io/png_file.h"
+#include "io/image_file.h"
 #include "io/table_reader.h"
 #include "mivo/core/error.h"
 #include "mivo/io/camera_file.h"
@@ -155,7 +155,7 @@ void run(int argc, char** argv) {
   for (const Image& image : contents.colour) {
     cv::Mat pixels;
     try {
-      pixels = mivo::readPng((fs::path(in) / image.path).string());
+      pixels = mivo::readImage((fs::path(in) / image.path).string());
     } catch (const mivo::Error& error) {
       progress.clear();
       std::cerr << "relight_sequence: copied as it is: " << error.what() << "\n";

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <string>
+#include <vector>
 
 #include "programs/bag_options.h"
 #include "programs/command_line.h"
@@ -9,19 +10,22 @@
 namespace {
 
 void run(int argc, char** argv) {
-  std::string bag;
+  std::vector<std::string> bags;
   mivo::RgbdTopics topics;
   mivo::CommandLine line("run_bag",
                          "Visual odometry over a bag, as fast as it goes and without a ROS master: "
                          "tracks each frame and writes the camera's trajectory.");
-  line.argument("BAG", &bag, "a bag with colour images, registered depth images and camera_info");
+  line.arguments(
+      "BAG", &bags,
+      "a bag with colour images, depth images and camera_info; several are one recording");
   mivo::declareTopics(line, &topics);
   mivo::TrackingCommandLine tracking;
   tracking.declare(line);
   if (!line.parse(argc, argv)) return;
-  const mivo::TrackingOptions options = tracking.options(line);
+  mivo::TrackingOptions options = tracking.options(line);
+  for (const std::string& bag : bags) options.inputs.push_back({"BAG", bag});
 
-  mivo::BagSource source(bag, topics, options.range);
+  mivo::BagSource source(bags, topics, options.range);
   mivo::runTracking("run_bag", source, options);
 }
 

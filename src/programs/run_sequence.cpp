@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <filesystem>
 #include <string>
 
 #include "mivo/io/sequence_reader.h"
@@ -12,11 +13,16 @@ void run(int argc, char** argv) {
   mivo::CommandLine line("run_sequence",
                          "Visual odometry over a sequence folder: tracks each frame and writes the "
                          "camera's trajectory.");
-  line.argument("FOLDER", &folder, "rgb.txt, depth.txt, [associations.txt,] camera.txt and images");
+  line.argument("FOLDER", &folder,
+                "images and camera.txt as TUM lays them out, or 7-Scenes, ScanNet, SUN3D, ...");
   mivo::TrackingCommandLine tracking;
   tracking.declare(line);
   if (!line.parse(argc, argv)) return;
-  const mivo::TrackingOptions options = tracking.options(line);
+  mivo::TrackingOptions options = tracking.options(line);
+  for (const char* name :
+       {"rgb.txt", "depth.txt", "associations.txt", "camera.txt", "groundtruth.txt"}) {
+    options.inputs.push_back({name, (std::filesystem::path(folder) / name).string()});
+  }
 
   mivo::SequenceReader sequence(folder, options.range);
   mivo::runTracking("run_sequence", sequence, options);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "io/png_file.h"
+#include "io/image_file.h"
 #include "io/table_reader.h"
 #include "mivo/core/error.h"
 #include "mivo/io/camera_file.h"
@@ -63,7 +63,7 @@ void writeImages(const std::vector<Image>& images, mivo::BagWriter& bag) {
   std::size_t skipped = 0;
   for (const Image& image : images) {
     try {
-      const cv::Mat pixels = mivo::readPng(image.path);
+      const cv::Mat pixels = mivo::readImage(image.path);
       if (image.is_depth) {
         bag.writeDepth(image.stamp, pixels);
       } else {

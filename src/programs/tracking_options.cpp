@@ -55,7 +55,6 @@ void TrackingCommandLine::declare(CommandLine& line) {
 TrackingOptions TrackingCommandLine::options(const CommandLine& line) const {
   TrackingOptions options;
   if (output_.empty()) throw UsageError("--output TRAJECTORY is missing");
-  if (output_ == statistics_) throw UsageError("--output and --statistics name the same file");
   options.output = output_;
   options.statistics = statistics_;
   options.force = force_;

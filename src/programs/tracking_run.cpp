@@ -7,21 +7,26 @@
 #include <opencv2/core/utility.hpp>
 
 #include "core/execution/cpu_clock.h"
+#include "io/numbered_path.h"
 #include "mivo/core/odometry.h"
 #include "mivo/io/trajectory_io.h"
 #include "programs/progress_bar.h"
 #include "programs/statistics_file.h"
+#include "session/repeated_image.h"
+#include "session/tracking_session.h"
 
 namespace mivo {
 namespace {
 
 constexpr std::size_t kToldReasons = 10;  // to skip a frame; further ones are only counted
 
-const TrackingResult& process(Odometry& odometry, const Frame& frame,
+const TrackingResult& process(TrackingSession& session, const Frame& frame,
                               std::optional<Disturbance>& disturbance) {
   // The first frame defines the world: there is nothing to start from, and nothing to disturb.
-  if (!disturbance || !odometry.hasKeyframe()) return odometry.process(frame);
-  return odometry.process(frame, odometry.predictedPose(frame.stamp) * disturbance->next());
+  const Odometry& odometry = session.odometry();
+  if (!disturbance || !odometry.hasKeyframe()) return session.process(frame, nullptr);
+  const Eigen::Isometry3d start = odometry.predictedPose(frame.stamp) * disturbance->next();
+  return session.process(frame, &start);
 }
 
 /// What was wrong with a frame that the odometry refused.
@@ -41,38 +46,78 @@ class TrackingRun {
  public:
   TrackingRun(const FrameSource& source, const TrackingOptions& options);
 
-  void track(const Frame& frame);
+  /// @param starts_anew  time was set back before it
+  void track(const Frame& frame, const Camera& camera, bool starts_anew);
   void skip(const FrameFault& fault);
   const TrackingSummary& summary() const { return summary_; }
 
  private:
+  void restart(double stamp);
+  void openTrajectory();
+  void tell(const std::string& text);
+
   const TrackingOptions& options_;
-  Odometry odometry_;
+  TrackingSession session_;
+  int trajectories_ = 0;
   std::optional<TrajectoryWriter> trajectory_;
   std::optional<StatisticsFile> statistics_;
   std::optional<Disturbance> disturbance_;
+  RepeatedImage repeated_;
   ProgressBar progress_;
   TrackingSummary summary_;
 };
 
 TrackingRun::TrackingRun(const FrameSource& source, const TrackingOptions& options)
     : options_(options),
-      odometry_(source.camera(), options.parameters),
+      session_(options.parameters),
       disturbance_(options.disturbance),
       progress_(source.size()) {
+  session_.setCamera(source.camera());
   const Overwrite overwrite = options.force ? Overwrite::kYes : Overwrite::kNo;
-  if (!options.statistics.empty()) refuseExisting(options.statistics, overwrite);
-  trajectory_.emplace(options.output, overwrite);
+  requireOutputs({{"--output", options.output}, {"--statistics", options.statistics}},
+                 options.inputs, overwrite);
+  openTrajectory();
   if (options.statistics.empty()) return;
   statistics_.emplace(options.statistics, overwrite, options.parameters.alignment.levels);
 }
 
-void TrackingRun::track(const Frame& frame) {
+void TrackingRun::openTrajectory() {
+  trajectory_.emplace(numberedPath(options_.output, ++trajectories_),
+                      options_.force ? Overwrite::kYes : Overwrite::kNo);
+}
+
+void TrackingRun::tell(const std::string& text) {
+  progress_.clear();
+  std::cerr << "note: " << text << "\n";
+}
+
+void TrackingRun::restart(double stamp) {
+  session_.restart();
+  openTrajectory();
+  tell(
+      fmt::format("frame of stamp {:.6f}: time was set back; tracking starts anew at the last "
+                  "pose, and the trajectory goes on in {}",
+                  stamp, numberedPath(options_.output, trajectories_)));
+}
+
+void TrackingRun::track(const Frame& frame, const Camera& camera, bool starts_anew) {
+  if (starts_anew) restart(frame.stamp);
+  if (repeated_.check(frame)) {
+    skip({fmt::format("frame of stamp {:.6f}: {}", frame.stamp, RepeatedImage::kReason),
+          RepeatedImage::kReason});
+    return;
+  }
+  if (session_.setCamera(camera)) {
+    tell(
+        fmt::format("frame of stamp {:.6f}: the calibration has changed; tracking starts anew at "
+                    "the last pose",
+                    frame.stamp));
+  }
   const double start = processMilliseconds();
-  const TrackingResult& result = process(odometry_, frame, disturbance_);
+  const TrackingResult& result = process(session_, frame, disturbance_);
   const double cpu_ms = processMilliseconds() - start;
   if (result.isRefused()) {
-    skip(refusalOf(frame, result, odometry_.camera()));
+    skip(refusalOf(frame, result, camera));
     return;
   }
   if (isWritten(result, options_)) trajectory_->write({frame.stamp, result.T_odom_camera});
@@ -100,12 +145,14 @@ TrackingSummary trackFrames(FrameSource& source, const TrackingOptions& options)
   for (auto status = source.next(frame, fault); status != FrameSource::Status::kEnd;
        status = source.next(frame, fault)) {
     if (status == FrameSource::Status::kFrame) {
-      run.track(frame);
+      run.track(frame, source.camera(), source.startsAnew());
     } else {
       run.skip(fault);
     }
   }
-  return run.summary();
+  TrackingSummary summary = run.summary();
+  summary.left_out = source.leftOut();
+  return summary;
 }
 
 void runTracking(const std::string& program, FrameSource& source, const TrackingOptions& options) {

@@ -10,6 +10,7 @@
 #include "mivo/io/frame_source.h"
 #include "programs/command_line.h"
 #include "programs/disturbance.h"
+#include "programs/output_paths.h"
 #include "programs/tracking_summary.h"
 
 // What run_sequence and run_bag have in common: everything but where the frames come from.
@@ -18,10 +19,11 @@ namespace mivo {
 
 /// What to do with the frames of a source.
 struct TrackingOptions {
-  std::string output;       ///< trajectory file
-  std::string statistics;   ///< CSV file; empty: none
-  bool force = false;       ///< existing files may be overwritten
-  bool write_lost = false;  ///< the guessed poses of lost frames are written, too
+  std::string output;             ///< trajectory file
+  std::string statistics;         ///< CSV file; empty: none
+  bool force = false;             ///< existing files may be overwritten
+  bool write_lost = false;        ///< the guessed poses of lost frames are written, too
+  std::vector<NamedFile> inputs;  ///< must not be written
   Parameters parameters;
   FrameRange range;  ///< for the source: trackFrames takes all that the source delivers
   std::optional<Disturbance> disturbance;
@@ -56,8 +58,9 @@ class TrackingCommandLine {
 
 /// Tracks all frames of the source and writes trajectory and statistics line by line: what has been
 /// computed is on disk whatever happens later. Measured poses are written, and those of lost frames
-/// when the options say so. Skipped frames are told on stderr, once per reason. Throws Error when a
-/// file exists (without `force`) or cannot be written, or when the source fails.
+/// when the options say so. Skipped frames are told on stderr, once per reason. Both files
+/// are looked at before one is opened, see requireOutputs(). Throws UsageError or Error when they
+/// cannot be written, Error when the source fails.
 TrackingSummary trackFrames(FrameSource& source, const TrackingOptions& options);
 
 /// The body of a program: the same with all that is to be said on stdout and stderr. Throws Error,

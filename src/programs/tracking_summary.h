@@ -25,6 +25,7 @@ struct TrackingSummary {
   std::size_t lost = 0;
   std::size_t skipped_frames = 0;  ///< that could not be read, or were refused
   CountByReason skipped;           ///< the same by reason
+  CountByReason left_out;          ///< images that became no frame, by reason
   CountByReason not_measured;      ///< of `frames`: initialising and lost ones by reason
   std::size_t motions = 0;         ///< frames measured against a keyframe
   int keyframes = 0;
@@ -34,6 +35,8 @@ struct TrackingSummary {
   std::vector<double> cpu_ms;  ///< of each frame, all threads, from decoded images to the pose
   std::vector<double> depth_medians;  ///< m, of the frames that have depth
   double depth_coverage = 0.0;        ///< part of the pixels with depth, summed over the frames
+  double depth_unit = 0.0;            ///< m, of 16-bit depth, of the last frame; 0: metres
+  CountByReason depth_storage;        ///< frames by how their depth seems to be stored, see below
 
   /// Counts a frame that was looked at.
   void add(const Frame& frame, const TrackingResult& result, double cpu_ms);
@@ -45,8 +48,9 @@ struct TrackingSummary {
 /// Lines `name: value`.
 void print(std::ostream& stream, const TrackingSummary& summary);
 
-/// What is wrong with the depth as a whole, as one line, or an empty text: it is not there, or its
-/// median is out of the range that the tracker takes.
+/// What is wrong with the depth as a whole, as one line, or an empty text: it is not there, its
+/// median is out of the range that the tracker takes or unlikely in a room, or its bits are not
+/// stored plainly. With the median that was seen and the likely cause.
 /// @param depth_unit  where the unit of depth comes from, FrameSource::depthUnit()
 std::string findDepthFault(const TrackingSummary& summary, const DepthParameters& parameters,
                            const std::string& depth_unit);

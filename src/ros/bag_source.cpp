@@ -1,178 +1,347 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/bag_source.h"
 
+#include <fmt/format.h>
 #include <nav_msgs/Path.h>
-#include <rosbag/view.h>
 #include <sensor_msgs/CameraInfo.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
+#include "core/camera_doubt.h"
 #include "mivo/core/error.h"
 #include "ros/camera_conversion.h"
+#include "ros/clock_fault.h"
+#include "ros/depth_geometry.h"
 #include "ros/header_only.h"
 #include "ros/pose_conversion.h"
 #include "ros/stamp.h"
 #include "ros/topics.h"
+#include "session/frame_order.h"
 #include "session/stamp_order.h"
 #include "session/stamp_pairer.h"
 
 namespace mivo {
 namespace {
 
-void open(rosbag::Bag& bag, const std::string& path) {
-  try {
-    bag.open(path, rosbag::bagmode::Read);
-  } catch (const rosbag::BagUnindexedException&) {
-    throw Error(path + " has no index, its recording was interrupted; run: rosbag reindex " + path);
-  } catch (const std::exception& error) {
-    throw Error(path + " cannot be read as a bag: " + error.what());
+// s, of depth against colour in most pairs: nearly as far as to the image before or after.
+constexpr double kNotedPairOffset = 0.012;
+
+/// rosbag could not read a message that its index names.
+struct DamagedBag {};
+
+ImageMessageConstPtr readImage(const RecordedMessage& message) {
+  if (message.is<sensor_msgs::CompressedImage>()) {
+    return wrap(message.read<sensor_msgs::CompressedImage>());
   }
+  return wrap(message.read<sensor_msgs::Image>());
 }
 
-BagContents contentsOf(const rosbag::Bag& bag) {
-  BagContents contents;
-  rosbag::View view(bag);
-  for (const rosbag::ConnectionInfo* connection : view.getConnections()) {
-    contents[connection->topic] = connection->datatype;
-  }
-  return contents;
+const char* nameOf(ImageStream stream) {
+  return stream == ImageStream::kColour ? "colour" : "depth";
 }
 
-std::vector<double> stampsOf(const std::vector<BagSource::Message>& messages) {
-  std::vector<double> stamps;
-  for (const BagSource::Message& message : messages) stamps.push_back(message.stamp);
-  return stamps;
-}
-
-template <typename Message>
-boost::shared_ptr<const Message> instantiate(const rosbag::MessageInstance& instance) {
-  boost::shared_ptr<const Message> message = instance.instantiate<Message>();
-  if (!message) {
-    throw Error("the message is a " + instance.getDataType() + ", not a " +
-                ros::message_traits::DataType<Message>::value());
-  }
-  return message;
-}
-
-ImageMessageConstPtr readImage(const rosbag::MessageInstance& instance) {
-  if (instance.isType<sensor_msgs::CompressedImage>()) {
-    return wrap(instantiate<sensor_msgs::CompressedImage>(instance));
-  }
-  return wrap(instantiate<sensor_msgs::Image>(instance));
+std::string withoutPartner(ImageStream stream) {
+  return std::string(nameOf(stream)) + " image without a partner within 20 ms";
 }
 
 }  // namespace
 
-BagSource::BagSource(const std::string& path, const RgbdTopics& wanted, const FrameRange& range)
-    : path_(path) {
-  open(bag_, path);
-  try {
-    topics_ = findTopics(contentsOf(bag_), wanted);
-    readCamera();
-    findPairs(range);
-  } catch (const std::exception& error) {
-    throw Error(path + ": " + error.what());
-  }
-}
-
-void BagSource::readCamera() {
-  rosbag::View view(bag_, rosbag::TopicQuery(topics_.camera_info));
-  for (const rosbag::MessageInstance& instance : view) {
-    camera_ =
-        toCamera(*instantiate<sensor_msgs::CameraInfo>(instance), isRectifiedTopic(topics_.colour));
-    return;
-  }
-  throw Error("there is no message on the topic " + topics_.camera_info);
-}
-
-std::vector<BagSource::Message> BagSource::readIndex(const std::string& topic) {
-  struct Indexed {
-    double stamp;
-    std::size_t index;  // instances cannot be assigned, thus not sorted
+/// The image messages of a recording.
+struct BagSource::Index {
+  struct Entry {
+    ImageStream stream;
+    Message message;
   };
-  rosbag::View view(bag_, rosbag::TopicQuery(topic));
-  std::vector<rosbag::MessageInstance> instances(view.begin(), view.end());
-  std::vector<Indexed> order;
-  for (std::size_t i = 0; i < instances.size(); ++i) {
-    order.push_back({toSeconds(instantiate<HeaderOnly>(instances[i])->header.stamp), i});
+  std::vector<Entry> images;  // in the order in which they were recorded
+  std::size_t damaged = 0;
+  std::optional<double> clock_offset;
+
+  std::vector<double> stamps(ImageStream stream) const {
+    std::vector<double> stamps;
+    for (const Entry& image : images) {
+      if (image.stream == stream) stamps.push_back(image.message.stamp);
+    }
+    return stamps;
   }
-  StampOrder changes;
+};
+
+BagSource::BagSource(const std::vector<std::string>& paths, const RgbdTopics& wanted,
+                     const FrameRange& range) {
   try {
-    changes = putInOrder(order);
-  } catch (const Error& error) {
-    throw Error("the images on " + topic + ": " + error.what());
+    open(paths, wanted, Recording::Reader::kIndexed);
+  } catch (const DamagedBag&) {
+    open(paths, wanted, Recording::Reader::kSalvage);
   }
-  changes.was_sorted = true;  // a bag has them as they came in, which nobody needs to know
-  const std::string text = describe(changes, "images on " + topic);
-  if (!text.empty()) notice_ += (notice_.empty() ? path_ + ": " : "; ") + text;
-  std::vector<Message> messages;
-  messages.reserve(order.size());
-  for (const Indexed& item : order) messages.push_back({item.stamp, instances[item.index]});
-  return messages;
+  try {
+    findDepthGeometry(!wanted.depth.empty());
+    take(range);
+    frames_ = std::make_unique<FrameMaker>(isRectifiedTopic(topics_.colour));
+    const ImagePair first = messagesOf(pairs_.front());
+    camera_ = toCamera(*first.camera_info, isRectifiedTopic(topics_.colour),
+                       first.colour->toColourImage().image.size());
+    tell(doubtOf(camera_));
+  } catch (const std::exception& error) {
+    throw Error(recording_->name() + ": " + error.what());
+  }
 }
 
-void BagSource::findPairs(const FrameRange& range) {
-  const std::vector<Message> colours = readIndex(topics_.colour);
-  const std::vector<Message> depths = readIndex(topics_.depth);
-  for (const auto& [i, j] : pairByStamp(stampsOf(colours), stampsOf(depths))) {
-    pairs_.push_back({colours[i], depths[j]});
+void BagSource::open(const std::vector<std::string>& paths, const RgbdTopics& wanted,
+                     Recording::Reader reader) {
+  recording_ = std::make_unique<Recording>(paths, reader);
+  calibrations_ = {};
+  depth_calibrations_ = {};
+  pairs_.clear();
+  left_out_.clear();
+  notice_.clear();
+  tell(recording_->damage());
+  try {
+    topics_ = findTopics(recording_->contents(), wanted);
+    findPairs(readIndex(reader));
+  } catch (const std::exception& error) {
+    throw Error(recording_->name() + ": " + error.what());
   }
-  if (pairs_.empty()) {
-    throw Error("no depth image is within 20 ms of a colour image (" +
-                std::to_string(colours.size()) + " colour images on " + topics_.colour + ", " +
-                std::to_string(depths.size()) + " depth images on " + topics_.depth + ")");
+}
+
+BagSource::Index BagSource::readIndex(Recording::Reader reader) {
+  Index index;
+  ClockOffset clock_offset;
+  std::vector<std::string> topics = {topics_.colour, topics_.depth, topics_.camera_info};
+  if (!topics_.depth_info.empty()) topics.push_back(topics_.depth_info);
+  for (const RecordedMessage& message : recording_->messages(topics)) {
+    try {
+      const double stamp = toSeconds(message.read<HeaderOnly>()->header.stamp);
+      if (message.topic() == topics_.camera_info) {
+        calibrations_.add(stamp, message.read<sensor_msgs::CameraInfo>());
+        continue;
+      }
+      if (message.topic() == topics_.depth_info) {
+        depth_calibrations_.add(stamp, message.read<sensor_msgs::CameraInfo>());
+        continue;
+      }
+      const ImageStream stream =
+          message.topic() == topics_.colour ? ImageStream::kColour : ImageStream::kDepth;
+      clock_offset.add(stream, stamp, toSeconds(message.time()));
+      index.images.push_back({stream, {stamp, message}});
+    } catch (const Error&) {
+      throw;  // another type than the topic should have
+    } catch (const std::exception&) {
+      if (reader == Recording::Reader::kIndexed) throw DamagedBag();
+      ++index.damaged;
+    }
   }
+  index.clock_offset = clock_offset.seconds();
+  return index;
+}
+
+void BagSource::leaveOut(const std::string& reason, std::size_t count) {
+  if (count > 0) left_out_[reason] += count;
+}
+
+void BagSource::tell(const std::string& text) {
+  if (!text.empty()) notice_ += (notice_.empty() ? "" : "; ") + text;
+}
+
+void BagSource::findPairs(const Index& index) {
+  if (calibrations_.empty()) {
+    throw Error(calibrations_.sawUncalibrated()
+                    ? "camera_info is not calibrated: all messages on " + topics_.camera_info +
+                          " are zero; set the camera's calibration file"
+                    : "there is no message on the topic " + topics_.camera_info);
+  }
+  for (const ImageStream stream : {ImageStream::kColour, ImageStream::kDepth}) {
+    const std::vector<double> stamps = index.stamps(stream);
+    const bool is_same = std::all_of(stamps.begin(), stamps.end(),
+                                     [&](double stamp) { return stamp == stamps.front(); });
+    if (stamps.size() < 2 || !is_same) continue;
+    try {
+      refuseEqualStamps(stamps.size(), stamps.front());
+    } catch (const Error& error) {
+      throw Error("the images on " +
+                  (stream == ImageStream::kColour ? topics_.colour : topics_.depth) + ": " +
+                  error.what());
+    }
+  }
+  leaveOut("damaged message", index.damaged);
+  clock_offset_ = index.clock_offset;
+  if (index.clock_offset) clock_fault_ = describeClockFault(*index.clock_offset);
+  std::vector<Pair> dropped;
+  const auto left_out = left_out_;
+  pairAsRecorded(index, dropped);
+  // The order of the recording is believed unless it contradicts most stamps.
+  if (dropped.size() > pairs_.size()) {
+    left_out_ = left_out;
+    sortPairs(index);
+  }
+  requirePairs(index);
+  tellPairOffset();
+}
+
+double BagSource::pairOffset() const {
+  std::vector<double> offsets;
+  for (const Pair& pair : pairs_) offsets.push_back(pair.depth.stamp - pair.colour.stamp);
+  const auto middle = offsets.begin() + static_cast<std::ptrdiff_t>(offsets.size() / 2);
+  std::nth_element(offsets.begin(), middle, offsets.end());
+  return *middle;
+}
+
+void BagSource::tellPairOffset() {
+  const double offset = pairOffset();
+  if (std::abs(offset) < kNotedPairOffset) return;
+  tell(fmt::format("depth is stamped {:.1f} ms {} than the colour images that it is paired with",
+                   1000.0 * std::abs(offset), offset > 0.0 ? "later" : "earlier"));
+}
+
+/// As the node does it with the same messages.
+void BagSource::pairAsRecorded(const Index& index, std::vector<Pair>& dropped) {
+  std::map<StampFault, std::size_t> faults;
+  FrameOrder<Pair> order(
+      [&](Pair& pair, bool is_new_time) {
+        pairs_.push_back(pair);
+        pairs_.back().is_new_time = is_new_time;
+      },
+      [&](Pair& pair, StampFault fault) {
+        dropped.push_back(pair);
+        ++faults[fault];
+      });
+  std::map<ImageStream, std::size_t> singles;
+  PairingOptions options;
+  options.capacity = std::numeric_limits<std::size_t>::max();
+  StampPairer<Message> pairer(
+      options,
+      [&](Message& colour, Message& depth) {
+        order.push(colour.stamp, {colour, depth});
+      },
+      [&](ImageStream stream, Message&) { ++singles[stream]; });
+  for (const Index::Entry& image : index.images) {
+    pairer.push(image.stream, image.message.stamp, image.message);
+  }
+  pairer.flush();
+  order.flush();
+  for (const auto& [stream, count] : singles) leaveOut(withoutPartner(stream), count);
+  for (const auto& [fault, count] : faults) leaveOut(describe(fault), count);
+}
+
+void BagSource::sortPairs(const Index& index) {
+  pairs_.clear();
+  std::vector<Message> streams[2];
+  for (const ImageStream stream : {ImageStream::kColour, ImageStream::kDepth}) {
+    std::vector<Message>& messages = streams[static_cast<std::size_t>(stream)];
+    for (const Index::Entry& image : index.images) {
+      if (image.stream == stream) messages.push_back(image.message);
+    }
+    leaveOut(describe(StampFault::kLate), putInOrder(messages).doubled);
+  }
+  const auto stamps = [&](std::size_t stream) {
+    std::vector<double> list;
+    for (const Message& message : streams[stream]) list.push_back(message.stamp);
+    return list;
+  };
+  for (const auto& [i, j] : pairByStamp(stamps(0), stamps(1))) {
+    pairs_.push_back({streams[0][i], streams[1][j]});
+  }
+  for (const ImageStream stream : {ImageStream::kColour, ImageStream::kDepth}) {
+    leaveOut(withoutPartner(stream),
+             streams[static_cast<std::size_t>(stream)].size() - pairs_.size());
+  }
+  tell("the images were recorded in another order than that of their stamps, and are sorted");
+}
+
+void BagSource::requirePairs(const Index& index) const {
+  if (!pairs_.empty()) return;
+  const std::string offset = index.clock_offset
+                                 ? "; depth that comes with a colour image is stamped " +
+                                       std::to_string(*index.clock_offset) + " s later"
+                                 : "";
+  throw Error("no depth image is within 20 ms of a colour image (" +
+              std::to_string(index.stamps(ImageStream::kColour).size()) + " colour images on " +
+              topics_.colour + ", " + std::to_string(index.stamps(ImageStream::kDepth).size()) +
+              " depth images on " + topics_.depth + ")" + offset);
+}
+
+void BagSource::take(const FrameRange& range) {
   if (range.count == 0 || range.start >= pairs_.size()) {
     throw Error("no frame left: there are " + std::to_string(pairs_.size()) +
                 ", numbered from 0, and frames from " + std::to_string(range.start) +
                 " on were asked for");
   }
   const std::size_t end = range.start + std::min(range.count, pairs_.size() - range.start);
-  // MessageInstance cannot be assigned: the part is copied, not erased from the whole.
-  pairs_ = std::vector<Pair>(pairs_.begin() + static_cast<std::ptrdiff_t>(range.start),
-                             pairs_.begin() + static_cast<std::ptrdiff_t>(end));
+  pairs_.erase(pairs_.begin() + static_cast<std::ptrdiff_t>(end), pairs_.end());
+  pairs_.erase(pairs_.begin(), pairs_.begin() + static_cast<std::ptrdiff_t>(range.start));
 }
 
-BagSource::Images BagSource::read(const Pair& pair) {
-  colour_ = readImage(pair.colour.instance);
-  depth_ = readImage(pair.depth.instance);
-  return {colour_->toColourImage(), depth_->toDepthImage()};
+/// @param is_depth_chosen  the topic of depth was named by the user, who may know better
+void BagSource::findDepthGeometry(bool is_depth_chosen) {
+  T_colour_depth_.reset();
+  const Pair& pair = pairs_.front();
+  const std::string colour = pair.colour.recorded.read<HeaderOnly>()->header.frame_id;
+  const std::string depth = pair.depth.recorded.read<HeaderOnly>()->header.frame_id;
+  if (!isUnregistered(colour, depth, topics_.depth)) return;
+  T_colour_depth_ = findTransform(*recording_, colour, depth);
+  if (T_colour_depth_ && !depth_calibrations_.empty()) {
+    tell("depth on " + topics_.depth + " is registered to colour here");
+    return;
+  }
+  const std::string missing = describeMissingGeometry(
+      colour, depth, cameraInfoBeside(topics_.depth), !depth_calibrations_.empty());
+  if (!is_depth_chosen)
+    throw Error(missing + "; if it is registered all the same, say --depth " + topics_.depth);
+  T_colour_depth_.reset();
+  tell(missing + "; it is taken as registered");
+}
+
+ImagePair BagSource::messagesOf(const Pair& pair) {
+  if (!clock_fault_.empty()) throw Error(clock_fault_);
+  ImagePair messages;
+  messages.colour = readImage(pair.colour.recorded);
+  messages.depth = readImage(pair.depth.recorded);
+  messages.camera_info = calibrations_.at(pair.colour.stamp);
+  if (T_colour_depth_) {
+    messages.depth_geometry =
+        DepthGeometry{depth_calibrations_.at(pair.depth.stamp), *T_colour_depth_};
+  }
+  return messages;
+}
+
+MessageImages BagSource::read(const Pair& pair) {
+  last_ = messagesOf(pair);
+  return frames_->read(last_);
 }
 
 FrameSource::Status BagSource::next(Frame& frame, FrameFault& fault) {
   if (next_ >= pairs_.size()) return Status::kEnd;
   const Pair& pair = pairs_[next_++];
-  std::string reason;
+  starts_anew_ = starts_anew_after_fault_ || pair.is_new_time;
   try {
-    const Images images = read(pair);
-    frame.stamp = pair.colour.stamp;
-    frame.image = toGrey(images.colour.image, images.colour.order);
-    frame.depth = images.depth.image;
-    frame.depth_unit = images.depth.unit;
-    reason = findFault(frame, camera_);
+    last_ = messagesOf(pair);
+    const MessageFrame message = frames_->make(last_);
+    camera_ = message.camera;
+    frame = message.frame;
+    starts_anew_after_fault_ = false;
+    return Status::kFrame;
   } catch (const std::exception& error) {
-    reason = error.what();
+    fault.reason = error.what();
   }
-  if (reason.empty()) return Status::kFrame;
-  fault.text = path_ + ", frame of stamp " + std::to_string(pair.colour.stamp) + ": " + reason;
-  fault.reason = reason;
+  starts_anew_after_fault_ = starts_anew_;
+  fault.text = recording_->name() + ", frame of stamp " + std::to_string(pair.colour.stamp) + ": " +
+               fault.reason;
   return Status::kSkipped;
 }
 
 double BagSource::depthUnitsPerMetre() const {
   constexpr double kMillimetres = 1000.0;
   constexpr double kOfMetres = 5000.0;
-  return readImage(pairs_.front().depth.instance)->toDepthImage().image.type() == CV_16UC1
+  return readImage(pairs_.front().depth.recorded)->toDepthImage().image.type() == CV_16UC1
              ? kMillimetres
              : kOfMetres;
 }
 
 Trajectory BagSource::groundTruth() const {
   Trajectory truth;
-  rosbag::View view(bag_, rosbag::TopicQuery(topics::kGroundTruth));
-  for (const rosbag::MessageInstance& instance : view) {
-    if (!instance.isType<nav_msgs::Path>()) continue;
-    const auto path = instantiate<nav_msgs::Path>(instance);
+  for (const RecordedMessage& message : recording_->messages({topics::kGroundTruth})) {
+    if (!message.is<nav_msgs::Path>()) continue;
+    const auto path = message.read<nav_msgs::Path>();
     for (const geometry_msgs::PoseStamped& pose : path->poses) {
       truth.push_back({toSeconds(pose.header.stamp), toIsometry(pose.pose)});
     }

@@ -15,27 +15,38 @@ constexpr char kCompressedType[] = "sensor_msgs/CompressedImage";
 constexpr char kCameraInfoType[] = "sensor_msgs/CameraInfo";
 
 struct Pair {
+  const char* layout;
   const char* colour;
   const char* depth;
 };
 
 // Pairs of topics that are looked for, in this order: what is registered and unambiguous first.
 constexpr Pair kKnownPairs[] = {
-    {"/camera/rgb/image_color", "/camera/depth/image"},
-    {"/camera/rgb/image_rect_color", "/camera/depth_registered/image_raw"},
-    {"/camera/rgb/image_rect_color", "/camera/depth_registered/image_rect"},
-    {"/camera/rgb/image_rect_color", "/camera/depth_registered/hw_registered/image_rect_raw"},
-    {"/camera/rgb/image_color", "/camera/depth_registered/image_raw"},
-    {"/camera/rgb/image_raw", "/camera/depth_registered/image_raw"},
-    {"/camera/rgb/image_raw", "/camera/depth_registered/image"},
-    {"/camera/rgb/image_raw", "/camera/depth_registered/hw_registered/image_rect_raw"},
-    {"/camera/rgb/image_rect_mono", "/camera/depth_registered/image_raw"},
-    {"/camera/color/image_raw", "/camera/aligned_depth_to_color/image_raw"},
-    {"/camera/color/image_rect_color", "/camera/aligned_depth_to_color/image_raw"},
-    {"/rgb/image_raw", "/depth_to_rgb/image_raw"},
-    {"/rgb/image_rect_color", "/depth_registered/image_raw"},
-    {"/camera/data_throttled_image", "/camera/data_throttled_image_depth"},
-    {"/data_throttled_image", "/data_throttled_image_depth"},
+    {"tum", "/camera/rgb/image_color", "/camera/depth/image"},
+    {"rtabmap", "/camera/rgb/image_rect_color", "/camera/depth_registered/image_raw"},
+    {"rtabmap", "/camera/rgb/image_rect_color", "/camera/depth_registered/image_rect"},
+    {"openni2", "/camera/rgb/image_rect_color",
+     "/camera/depth_registered/hw_registered/image_rect_raw"},
+    {"openni2", "/camera/rgb/image_color", "/camera/depth_registered/image_raw"},
+    {"openni2", "/camera/rgb/image_raw", "/camera/depth_registered/image_raw"},
+    {"openni2", "/camera/rgb/image_raw", "/camera/depth_registered/image"},
+    {"openni2", "/camera/rgb/image_raw", "/camera/depth_registered/hw_registered/image_rect_raw"},
+    {"openni2", "/camera/rgb/image_rect_mono", "/camera/depth_registered/image_raw"},
+    {"realsense", "/camera/color/image_raw", "/camera/aligned_depth_to_color/image_raw"},
+    {"realsense", "/camera/color/image_rect_color", "/camera/aligned_depth_to_color/image_raw"},
+    {"azure_kinect", "/rgb/image_raw", "/depth_to_rgb/image_raw"},
+    {"azure_kinect", "/k4a/rgb/image_raw", "/k4a/depth_to_rgb/image_raw"},
+    {"rtabmap", "/rgb/image_rect_color", "/depth_registered/image_raw"},
+    {"rtabmap", "/camera/data_throttled_image", "/camera/data_throttled_image_depth"},
+    {"rtabmap", "/data_throttled_image", "/data_throttled_image_depth"},
+    {"orbbec", "/camera/color/image_raw", "/camera/depth_registered/image_raw"},
+    // Not registered, or registered in the driver, as the frames of the images say.
+    {"orbbec", "/camera/color/image_raw", "/camera/depth/image_raw"},
+    {"realsense", "/camera/color/image_raw", "/camera/depth/image_rect_raw"},
+    {"openni2", "/camera/rgb/image_raw", "/camera/depth/image_raw"},
+    {"openni2", "/camera/rgb/image_raw", "/camera/depth/image"},
+    {"azure_kinect", "/rgb/image_raw", "/depth/image_raw"},
+    {"azure_kinect", "/k4a/rgb/image_raw", "/k4a/depth/image_raw"},
 };
 
 constexpr std::array<const char*, 3> kTransports = {"", "/compressed", "/compressedDepth"};
@@ -52,16 +63,6 @@ std::string findImage(const BagContents& contents, const std::string& topic) {
     if (isImage(contents, topic + transport)) return topic + transport;
   }
   return {};
-}
-
-std::string withoutTransport(const std::string& topic) {
-  for (const std::string transport : kTransports) {
-    if (!transport.empty() && topic.size() > transport.size() &&
-        topic.compare(topic.size() - transport.size(), transport.size(), transport) == 0) {
-      return topic.substr(0, topic.size() - transport.size());
-    }
-  }
-  return topic;
 }
 
 /// Where drivers and tools put the calibration of a colour topic.
@@ -94,6 +95,26 @@ std::string listTopics(const BagContents& contents) {
 }
 
 }  // namespace
+
+std::string withoutTransport(const std::string& topic) {
+  for (const std::string transport : kTransports) {
+    if (!transport.empty() && topic.size() > transport.size() &&
+        topic.compare(topic.size() - transport.size(), transport.size(), transport) == 0) {
+      return topic.substr(0, topic.size() - transport.size());
+    }
+  }
+  return topic;
+}
+
+std::string layoutOf(const RgbdTopics& topics) {
+  for (const Pair& pair : kKnownPairs) {
+    if (withoutTransport(topics.colour) == pair.colour &&
+        withoutTransport(topics.depth) == pair.depth) {
+      return pair.layout;
+    }
+  }
+  return "unknown";
+}
 
 const std::vector<BagLayout>& bagLayouts() {
   static const std::vector<BagLayout> layouts = {
@@ -132,11 +153,13 @@ const BagLayout& bagLayout(const std::string& name) {
   throw Error("unknown layout '" + name + "', expected one of" + known);
 }
 
-RgbdTopics findTopics(const BagContents& contents, const RgbdTopics& wanted) {
-  for (const std::string& topic : {wanted.colour, wanted.depth}) {
-    if (!topic.empty() && !isImage(contents, topic)) {
-      refuse(contents, "the bag has no images on the topic " + topic);
-    }
+RgbdTopics findTopics(const BagContents& contents, const RgbdTopics& given) {
+  RgbdTopics wanted = given;
+  for (std::string* topic : {&wanted.colour, &wanted.depth}) {
+    if (topic->empty()) continue;
+    const std::string found = findImage(contents, *topic);
+    if (found.empty()) refuse(contents, "the bag has no images on the topic " + *topic);
+    *topic = found;
   }
   RgbdTopics topics = wanted;
   for (const Pair& pair : kKnownPairs) {
@@ -158,7 +181,7 @@ RgbdTopics findTopics(const BagContents& contents, const RgbdTopics& wanted) {
   }
   if (topics.colour.empty() || topics.depth.empty()) {
     refuse(contents,
-           "no known pair of colour and registered depth topics; name them with --rgb and "
+           "no known pair of colour and depth topics; name them with --rgb and "
            "--depth");
   }
   if (topics.camera_info.empty()) topics.camera_info = findCameraInfo(contents, topics.colour);
@@ -168,6 +191,7 @@ RgbdTopics findTopics(const BagContents& contents, const RgbdTopics& wanted) {
                          ? "no camera_info beside " + topics.colour + "; name it with --camera-info"
                          : "the bag has no camera_info on the topic " + topics.camera_info);
   }
+  if (topics.depth_info.empty()) topics.depth_info = findCameraInfo(contents, topics.depth);
   return topics;
 }
 

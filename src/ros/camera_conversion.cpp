@@ -12,30 +12,49 @@
 namespace mivo {
 namespace {
 
-constexpr std::size_t kPlumbBobSize = 5;
+constexpr std::size_t kMaxCoefficients = 8;
+// rad; an equidistant lens with a smaller field of view is none: drivers write the model's name
+// and zeros for rectified images, as image_geometry takes them.
+constexpr double kLeastFisheyeField = 1.4;
+
+const char kEquidistantModel[] = "equidistant";  // sensor_msgs does not name it everywhere
 
 bool isZero(double value) {
   return value == 0.0;
 }
 
-/// Coefficients k1 k2 p1 p2 k3 of the message; fewer are filled up with zeros.
+[[noreturn]] void refuseLens(const std::string& what) {
+  throw Error("camera_info has " + what +
+              ", expected plumb_bob, rational_polynomial or equidistant; rectify the images with "
+              "image_proc and use its image_rect topic");
+}
+
+/// D in the order of the message; fewer coefficients are filled up with zeros.
 Distortion toDistortion(const sensor_msgs::CameraInfo& message) {
-  const std::string remedy = "; rectify the images with image_proc and use its image_rect topic";
   const bool none = std::all_of(message.D.begin(), message.D.end(), isZero);
   const std::string& model = message.distortion_model;
-  if (model.empty() && none) return {};
-  if (model != sensor_msgs::distortion_models::PLUMB_BOB &&
+  const bool equidistant = model == kEquidistantModel;
+  if (none && (!equidistant || message.width < kLeastFisheyeField * message.K[0])) return {};
+  if (!equidistant && model != sensor_msgs::distortion_models::PLUMB_BOB &&
       model != sensor_msgs::distortion_models::RATIONAL_POLYNOMIAL) {
-    throw Error("camera_info has the lens model '" + model + "', expected plumb_bob" + remedy);
+    refuseLens("the lens model '" + model + "'");
   }
-  if (message.D.size() > kPlumbBobSize &&
-      !std::all_of(message.D.begin() + kPlumbBobSize, message.D.end(), isZero)) {
-    throw Error("camera_info has a lens model with " + std::to_string(message.D.size()) +
-                " coefficients, expected plumb_bob with 5" + remedy);
+  const std::size_t most = equidistant ? 4 : kMaxCoefficients;
+  if (message.D.size() > most && !std::all_of(message.D.begin() + static_cast<std::ptrdiff_t>(most),
+                                              message.D.end(), isZero)) {
+    refuseLens("a lens model '" + model + "' with " + std::to_string(message.D.size()) +
+               " coefficients");
   }
-  std::array<double, kPlumbBobSize> d{};
-  std::copy_n(message.D.begin(), std::min(message.D.size(), kPlumbBobSize), d.begin());
-  return {d[0], d[1], d[2], d[3], d[4]};
+  std::array<double, kMaxCoefficients> d{};
+  std::copy_n(message.D.begin(), std::min(message.D.size(), most), d.begin());
+  if (!equidistant) return {d[0], d[1], d[2], d[3], d[4], d[5], d[6], d[7]};
+  Distortion lens;
+  lens.model = LensModel::kEquidistant;
+  lens.k1 = d[0];
+  lens.k2 = d[1];
+  lens.k3 = d[2];
+  lens.k4 = d[3];
+  return lens;
 }
 
 /// Pinhole values of a matrix with `columns` columns: K has 3, P has 4.
@@ -51,6 +70,29 @@ void setPinhole(Camera& camera, const double* matrix, int columns, const char* n
   if (matrix[1] != 0.0) {
     throw Error(std::string("camera_info: ") + name + " has a skew, which is not supported");
   }
+  const double* last = matrix + 2 * columns;
+  if (last[0] != 0.0 || last[1] != 0.0 || last[2] != 1.0) {
+    throw Error(std::string("camera_info: ") + name +
+                " has a last row that is not 0 0 1: it was never filled in, or is damaged");
+  }
+}
+
+/// Size and pinhole of a region, in pixels of the whole sensor.
+void cutOut(const sensor_msgs::RegionOfInterest& region, Camera& camera) {
+  camera.width = static_cast<int>(region.width);
+  camera.height = static_cast<int>(region.height);
+  camera.cx -= region.x_offset;
+  camera.cy -= region.y_offset;
+}
+
+/// Pixels become the mean of `x` by `y` of them.
+void bin(int x, int y, Camera& camera) {
+  camera.width /= x;
+  camera.height /= y;
+  camera.fx /= x;
+  camera.fy /= y;
+  camera.cx = (camera.cx + 0.5) / x - 0.5;
+  camera.cy = (camera.cy + 0.5) / y - 0.5;
 }
 
 }  // namespace
@@ -59,28 +101,26 @@ bool isRectifiedTopic(const std::string& topic) {
   return topic.find("/image_rect") != std::string::npos || topic.rfind("image_rect", 0) == 0;
 }
 
-Camera toCamera(const sensor_msgs::CameraInfo& message, bool rectified) {
-  if (message.binning_x > 1 || message.binning_y > 1) {
-    throw Error(
-        "camera_info says that the image is binned, which is not supported; use a calibration "
-        "for the size of the image");
+Camera toCamera(const sensor_msgs::CameraInfo& message, bool rectified,
+                const cv::Size& image_size) {
+  sensor_msgs::CameraInfo info = message;
+  const bool has_size = info.width > 0 || info.height > 0;
+  if (!has_size) {  // of some drivers; then nothing is known of a region either
+    info.width = static_cast<std::uint32_t>(image_size.width);
+    info.height = static_cast<std::uint32_t>(image_size.height);
   }
   Camera camera;
-  camera.width = static_cast<int>(message.width);
-  camera.height = static_cast<int>(message.height);
+  camera.width = static_cast<int>(info.width);
+  camera.height = static_cast<int>(info.height);
   if (rectified) {
-    setPinhole(camera, message.P.data(), 4, "P");
+    setPinhole(camera, info.P.data(), 4, "P");
   } else {
-    setPinhole(camera, message.K.data(), 3, "K");
-    camera.distortion = toDistortion(message);
+    setPinhole(camera, info.K.data(), 3, "K");
+    camera.distortion = toDistortion(info);
   }
-  const sensor_msgs::RegionOfInterest& region = message.roi;
-  if (region.width > 0 && region.height > 0) {
-    camera.width = static_cast<int>(region.width);
-    camera.height = static_cast<int>(region.height);
-    camera.cx -= region.x_offset;
-    camera.cy -= region.y_offset;
-  }
+  if (info.roi.width > 0 && info.roi.height > 0) cutOut(info.roi, camera);
+  bin(std::max(1, static_cast<int>(info.binning_x)), std::max(1, static_cast<int>(info.binning_y)),
+      camera);
   camera.validate();
   return camera;
 }
@@ -89,9 +129,17 @@ sensor_msgs::CameraInfo toCameraInfo(const Camera& camera) {
   sensor_msgs::CameraInfo message;
   message.width = static_cast<std::uint32_t>(camera.width);
   message.height = static_cast<std::uint32_t>(camera.height);
-  message.distortion_model = sensor_msgs::distortion_models::PLUMB_BOB;
   const Distortion& d = camera.distortion;
-  message.D = {d.k1, d.k2, d.p1, d.p2, d.k3};
+  if (d.model == LensModel::kEquidistant) {
+    message.distortion_model = kEquidistantModel;
+    message.D = {d.k1, d.k2, d.k3, d.k4};
+  } else if (d.isRational()) {
+    message.distortion_model = sensor_msgs::distortion_models::RATIONAL_POLYNOMIAL;
+    message.D = {d.k1, d.k2, d.p1, d.p2, d.k3, d.k4, d.k5, d.k6};
+  } else {
+    message.distortion_model = sensor_msgs::distortion_models::PLUMB_BOB;
+    message.D = {d.k1, d.k2, d.p1, d.p2, d.k3};
+  }
   message.K = {camera.fx, 0.0, camera.cx, 0.0, camera.fy, camera.cy, 0.0, 0.0, 1.0};
   message.R = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
   message.P = {camera.fx, 0.0, camera.cx, 0.0, 0.0, camera.fy, camera.cy, 0.0, 0.0, 0.0, 1.0, 0.0};

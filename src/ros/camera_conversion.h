@@ -3,6 +3,7 @@
 
 #include <sensor_msgs/CameraInfo.h>
 
+#include <opencv2/core/types.hpp>
 #include <string>
 
 #include "mivo/core/camera.h"
@@ -12,12 +13,15 @@ namespace mivo {
 /// Whether a topic carries rectified images, by image_proc's names: image_rect, image_rect_color.
 bool isRectifiedTopic(const std::string& topic);
 
-/// Camera of a calibration: K and D for raw images, P for rectified ones. Throws Error, with the
-/// remedy, when it is empty, contradicts itself, is binned, or has a lens model that is not
-/// plumb_bob (a rational polynomial whose last three coefficients are zero is one).
-Camera toCamera(const sensor_msgs::CameraInfo& message, bool rectified);
+/// Camera of a calibration: K and D for raw images, P for rectified ones; of the region and the
+/// binned pixels that the image has. Lens models: plumb_bob, rational_polynomial with 8
+/// coefficients, equidistant; any with zeros alone is a pinhole. Throws Error, with the remedy,
+/// when it is empty, contradicts itself, cannot be right (Camera::validate), or has another lens.
+/// @param image_size  of the images: what a message that says 0 x 0 means
+Camera toCamera(const sensor_msgs::CameraInfo& message, bool rectified,
+                const cv::Size& image_size = {});
 
-/// Calibration of a camera, as plumb_bob. The header is left empty.
+/// Calibration of a camera. The header is left empty.
 sensor_msgs::CameraInfo toCameraInfo(const Camera& camera);
 
 }  // namespace mivo

@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Decoding of compressed images. The plugins of image_transport that would do it are not packaged
 // everywhere, and bags with compressed topics are the common ones.
+#include <cv_bridge/cv_bridge.h>
+
 #include <algorithm>
 #include <array>
 #include <cstring>
 #include <limits>
-#include <opencv2/imgcodecs.hpp>
 #include <string>
 
+#include "io/image_decoding.h"
 #include "mivo/core/error.h"
 #include "mivo/core/frame.h"
 #include "ros/image_conversion.h"
@@ -19,11 +21,6 @@ using Bytes = std::vector<std::uint8_t>;
 
 constexpr std::array<std::uint8_t, 8> kPngSignature = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
 constexpr std::array<std::uint8_t, 2> kJpegSignature = {0xff, 0xd8};
-constexpr std::array<std::uint8_t, 2> kJpegEnd = {0xff, 0xd9};
-constexpr std::array<std::uint8_t, 4> kPngEnd = {'I', 'E', 'N', 'D'};
-// An encoder may pad its output; the end mark is looked for in the last bytes only.
-constexpr std::ptrdiff_t kTailBytes = 64;
-
 // Header of compressedDepth: int32 format, then the two float parameters of the quantisation.
 constexpr std::size_t kDepthHeaderBytes = 12;
 
@@ -34,37 +31,14 @@ bool startsWith(const Bytes& data, std::size_t offset, const Signature& signatur
                     data.begin() + static_cast<std::ptrdiff_t>(offset));
 }
 
-template <typename Mark>
-bool endsWith(const Bytes& data, const Mark& mark) {
-  const auto tail = data.end() - std::min(kTailBytes, data.end() - data.begin());
-  return std::search(tail, data.end(), mark.begin(), mark.end()) != data.end();
-}
-
-/// Decodes a JPEG or PNG that starts at `offset`. A decoder would return the part of a truncated
-/// image that it could make sense of: its end is looked for first.
+/// Decodes a JPEG or PNG that starts at `offset`.
 cv::Mat decode(const sensor_msgs::CompressedImage& message, std::size_t offset) {
   const Bytes& data = message.data;
-  const bool png = startsWith(data, offset, kPngSignature);
-  const bool jpeg = startsWith(data, offset, kJpegSignature);
-  if (!png && !jpeg) {
-    throw Error("compressed image of format '" + message.format +
-                "': its data are neither JPEG nor PNG; record it raw or with another format");
+  const std::string name = "compressed image of format '" + message.format + "'";
+  if (!startsWith(data, offset, kPngSignature) && !startsWith(data, offset, kJpegSignature)) {
+    throw Error(name + ": its data are neither JPEG nor PNG; record it raw or with another format");
   }
-  if (png ? !endsWith(data, kPngEnd) : !endsWith(data, kJpegEnd)) {
-    throw Error("compressed image of format '" + message.format + "' is truncated");
-  }
-  const cv::Mat encoded(1, static_cast<int>(data.size() - offset), CV_8UC1,
-                        const_cast<std::uint8_t*>(data.data()) + offset);
-  cv::Mat image;
-  try {
-    image = cv::imdecode(encoded, cv::IMREAD_UNCHANGED);
-  } catch (const cv::Exception&) {
-    // A size beyond what it wants to decode; other damage gives an empty image.
-  }
-  if (image.empty()) {
-    throw Error("compressed image of format '" + message.format + "' is damaged");
-  }
-  return image;
+  return decodeImage(data.data() + offset, data.size() - offset, name);
 }
 
 /// Order of the channels after decoding. "rgb8; jpeg compressed bgr8" says how the pixels were
@@ -90,19 +64,108 @@ cv::Mat dequantise(const cv::Mat& quantised, float a, float b) {
   return depth;
 }
 
+/// RVL (A. D. Wilson, Fast Lossless Depth Image Compression, 2017) as
+/// compressed_depth_image_transport writes it: columns and rows as int32, then words of eight
+/// nibbles, the highest first. A number is nibbles of three bits, the lowest first, with the fourth
+/// set when more follow. Runs of zeros and of readings take turns; a reading is the zigzag
+/// difference to the one before.
+class RvlDecoder {
+ public:
+  RvlDecoder(const std::uint8_t* bytes, std::size_t size) : bytes_(bytes), words_(size / 4) {}
+
+  /// Throws Error when the numbers do not make an image of this size.
+  cv::Mat decode(int columns, int rows) {
+    cv::Mat image(rows, columns, CV_16UC1);
+    auto* depth = image.ptr<std::uint16_t>();
+    std::size_t left = image.total();
+    std::int64_t reading = 0;
+    while (left > 0) {
+      const std::size_t zeros = run(left);
+      depth = std::fill_n(depth, zeros, std::uint16_t{0});
+      left -= zeros;
+      const std::size_t readings = run(left);
+      left -= readings;
+      for (std::size_t i = 0; i < readings; ++i) {
+        const std::uint64_t zigzag = number();
+        reading += static_cast<std::int64_t>(zigzag >> 1) ^ -static_cast<std::int64_t>(zigzag & 1);
+        *depth++ = static_cast<std::uint16_t>(reading);
+      }
+      if (zeros + readings == 0 && left > 0) refuse();
+    }
+    return image;
+  }
+
+ private:
+  [[noreturn]] static void refuse() { throw Error("compressed depth: its RVL is damaged"); }
+
+  std::size_t run(std::size_t left) {
+    const std::uint64_t length = number();
+    if (length > left) refuse();
+    return static_cast<std::size_t>(length);
+  }
+
+  std::uint64_t number() {
+    std::uint64_t value = 0;
+    for (int shift = 0; shift < 60; shift += 3) {
+      const unsigned part = nibble();
+      value |= static_cast<std::uint64_t>(part & 7U) << shift;
+      if ((part & 8U) == 0) return value;
+    }
+    refuse();
+  }
+
+  unsigned nibble() {
+    if (nibbles_ == 0) {
+      if (next_ == words_) refuse();
+      std::memcpy(&word_, bytes_ + 4 * next_++, 4);
+      nibbles_ = 8;
+    }
+    return word_ >> 4 * --nibbles_ & 15U;
+  }
+
+  const std::uint8_t* bytes_;
+  std::size_t words_;
+  std::size_t next_ = 0;
+  std::uint32_t word_ = 0;
+  int nibbles_ = 0;  // of the word, left
+};
+
+cv::Mat decodeRvl(const Bytes& data) {
+  constexpr int kMaxSize = 16384;  // pixels
+  std::array<std::int32_t, 2> size{};
+  const std::size_t begin = kDepthHeaderBytes + sizeof(size);
+  if (data.size() < begin) throw Error("compressed depth: its RVL is truncated");
+  std::memcpy(size.data(), data.data() + kDepthHeaderBytes, sizeof(size));
+  if (size[0] <= 0 || size[1] <= 0 || size[0] > kMaxSize || size[1] > kMaxSize) {
+    throw Error("compressed depth: its RVL is of " + std::to_string(size[0]) + " x " +
+                std::to_string(size[1]) + " pixels");
+  }
+  return RvlDecoder(data.data() + begin, data.size() - begin).decode(size[0], size[1]);
+}
+
 }  // namespace
 
 ColourImage toColourImage(const sensor_msgs::CompressedImage& message) {
-  return {decode(message, 0), channelOrder(message.format)};
+  const cv::Mat image = decode(message, 0);
+  const std::string encoding = message.format.substr(0, message.format.find(';'));
+  if (image.channels() != 1 || encoding.rfind("bayer_", 0) != 0) {
+    return {image, channelOrder(message.format)};
+  }
+  sensor_msgs::Image mosaic;
+  cv_bridge::CvImage(message.header, encoding, image).toImageMsg(mosaic);
+  const ColourImage colour = toColourImage(mosaic);
+  return {colour.image.clone(), colour.order};
 }
 
 DepthImage toDepthImage(const sensor_msgs::CompressedImage& message) {
   const bool plain = startsWith(message.data, 0, kPngSignature);
-  if (!plain && !startsWith(message.data, kDepthHeaderBytes, kPngSignature)) {
+  const bool rvl = message.format.find("compressedDepth rvl") != std::string::npos;
+  if (!plain && !rvl && !startsWith(message.data, kDepthHeaderBytes, kPngSignature)) {
     throw Error("compressed depth of format '" + message.format +
-                "': expected PNG; JPEG loses depth, and RVL is not supported");
+                "': expected PNG or RVL; JPEG loses depth");
   }
-  const cv::Mat image = decode(message, plain ? 0 : kDepthHeaderBytes);
+  const cv::Mat image =
+      rvl ? decodeRvl(message.data) : decode(message, plain ? 0 : kDepthHeaderBytes);
   if (image.type() != CV_16UC1) {
     throw Error("compressed depth of format '" + message.format + "' has not 16 bits");
   }

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <utility>
 
+#include "ros/clock_fault.h"
+#include "ros/depth_geometry.h"
 #include "ros/node_topics.h"
 #include "ros/stamp.h"
 
@@ -18,6 +20,9 @@ constexpr double kSilence = 5.0;  // s without a pair before a warning
 // Without a message for this long no better partner will come for what is waiting.
 constexpr double kIdle = 0.5;          // s
 constexpr double kWatchPeriod = 0.25;  // s
+
+// Pairs that wait for their calibration; it comes with the image or not at all.
+constexpr std::size_t kMostWaiting = 3;
 
 // Where no frame may be lost, one topic may run ahead of the other by this many images at least.
 constexpr int kQueueWithoutLoss = 100;
@@ -51,7 +56,10 @@ FrameInput::FrameInput(const ros::NodeHandle& private_node, const NodeParameters
       pairer_(
           pairingOptions(parameters_),
           [this](ImageMessageConstPtr& colour, ImageMessageConstPtr& depth) {
-            deliver({colour, depth, nullptr});
+            ImagePair pair;
+            pair.colour = colour;
+            pair.depth = depth;
+            deliver(std::move(pair));
           },
           [this](ImageStream stream, ImageMessageConstPtr&) { countSingle(stream); }),
       colour_(private_node, topicBeside(private_node, topics::kColour), parameters.rgb_transport,
@@ -74,6 +82,11 @@ FrameInput::FrameInput(const ros::NodeHandle& private_node, const NodeParameters
       [this](const sensor_msgs::CameraInfoConstPtr& message) { takeCameraInfo(message); };
   camera_info_subscriber_ = handle.subscribe<sensor_msgs::CameraInfo>(
       camera_info_topic, static_cast<std::uint32_t>(parameters.queue_size), take_info);
+  const boost::function<void(const sensor_msgs::CameraInfoConstPtr&)> take_depth_info =
+      [this](const sensor_msgs::CameraInfoConstPtr& message) { takeDepthInfo(message); };
+  depth_info_subscriber_ = handle.subscribe<sensor_msgs::CameraInfo>(
+      cameraInfoBeside(depth_.topic()), static_cast<std::uint32_t>(parameters.queue_size),
+      take_depth_info);
   colour_.subscribe(private_node);
   depth_.subscribe(private_node);
   timer_ = handle.createWallTimer(ros::WallDuration(kWatchPeriod),
@@ -87,6 +100,7 @@ void FrameInput::take(ImageStream stream, const ImageMessageConstPtr& message) {
     ++count.messages;
     count.last_stamp = message->header.stamp;
     count.last_arrival = ros::WallTime::now();
+    clock_offset_.add(stream, toSeconds(message->header.stamp), toSeconds(ros::Time::now()));
   }
   pairer_.push(stream, toSeconds(message->header.stamp), message);
 }
@@ -102,19 +116,54 @@ void FrameInput::takeCameraInfo(const sensor_msgs::CameraInfoConstPtr& message) 
     ++camera_info_count_.messages;
     camera_info_count_.last_stamp = message->header.stamp;
     camera_info_count_.last_arrival = ros::WallTime::now();
-    camera_info_ = message;
+    calibrations_.add(toSeconds(message->header.stamp), message);
+    if (calibrations_.empty()) return;
   }
-  while (early_.size() > 0) deliver(*early_.pop());
+  while (early_.size() > 0) complete(*early_.pop());
+  giveOut(false);
+}
+
+void FrameInput::takeDepthInfo(const sensor_msgs::CameraInfoConstPtr& message) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  depth_calibrations_.add(toSeconds(message->header.stamp), message);
 }
 
 void FrameInput::deliver(ImagePair pair) {
+  waiting_.push_back(std::move(pair));
+  giveOut(waiting_.size() > kMostWaiting);
+}
+
+/// Pairs whose calibration is there, in their order; all of them `at_once` whatever may come.
+void FrameInput::giveOut(bool at_once) {
+  while (!waiting_.empty() &&
+         (at_once || !expectsCalibration(waiting_.front().colour->header.stamp))) {
+    ImagePair pair = std::move(waiting_.front());
+    waiting_.pop_front();
+    last_given_ = pair.colour->header.stamp;
+    complete(std::move(pair));
+  }
+}
+
+/// Whether there is one with each image, and that of this stamp is on its way: topics overtake each
+/// other, and a calibration that changes has to change with its own image.
+bool FrameInput::expectsCalibration(const ros::Time& stamp) const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const ros::Time& last = camera_info_count_.last_stamp;
+  return camera_info_count_.messages > 1 && !last_given_.isZero() && last >= last_given_ &&
+         last < stamp;
+}
+
+void FrameInput::complete(ImagePair pair) {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (!camera_info_) {
+    if (calibrations_.empty()) {
       keepEarly(std::move(pair));
       return;
     }
-    pair.camera_info = camera_info_;
+    pair.camera_info = calibrations_.at(toSeconds(pair.colour->header.stamp));
+    pair.depth_info = depth_calibrations_.at(toSeconds(pair.depth->header.stamp));
+    const std::optional<double> offset = clock_offset_.seconds();
+    if (offset) pair.fault = describeClockFault(*offset);
     last_pair_ = ros::WallTime::now();
     next_warning_ = kSilence;
   }
@@ -142,6 +191,7 @@ void FrameInput::watch() {
       pairer_.numWaiting(ImageStream::kDepth) > 0) {
     pairer_.flush();
   }
+  if (idle) giveOut(true);
   const std::string warning = silence();
   if (!warning.empty()) ROS_WARN_STREAM(warning);
 }
@@ -151,7 +201,9 @@ void FrameInput::stop() {
   colour_.shutdown();
   depth_.shutdown();
   camera_info_subscriber_.shutdown();
+  depth_info_subscriber_.shutdown();
   pairer_.flush();
+  giveOut(true);
 }
 
 std::string FrameInput::silence() {
@@ -181,11 +233,17 @@ std::string FrameInput::explain(double seconds) const {
         publishers == 1 ? "" : "s",
         never ? std::string() : fmt::format(", last stamp {:.3f}", count->last_stamp.toSec()));
   }
+  if (silent.empty() && calibrations_.empty() && calibrations_.sawUncalibrated()) {
+    return fmt::format(
+        "no frame for {:.0f} s: camera_info is not calibrated, all messages on {} are zero; set "
+        "the camera's calibration file",
+        seconds, camera_info_count_.topic);
+  }
   if (!silent.empty()) {
     return fmt::format("no frame for {:.0f} s, nothing comes on: {}", seconds, silent) + text;
   }
-  const double difference = std::abs(
-      (countOf(ImageStream::kColour).last_stamp - countOf(ImageStream::kDepth).last_stamp).toSec());
+  const double difference = std::abs(countOf(ImageStream::kColour).last_stamp.toSec() -
+                                     countOf(ImageStream::kDepth).last_stamp.toSec());
   return fmt::format(
              "no frame for {:.0f} s: images come, but their stamps are not {}; the last ones "
              "differ "

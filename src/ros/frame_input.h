@@ -4,14 +4,17 @@
 #include <ros/node_handle.h>
 
 #include <array>
+#include <deque>
 #include <functional>
 #include <mutex>
 #include <string>
 #include <vector>
 
+#include "ros/calibration_history.h"
 #include "ros/frame_queue.h"
 #include "ros/image_port.h"
 #include "ros/node_parameters.h"
+#include "session/clock_offset.h"
 #include "session/stamp_pairer.h"
 
 namespace mivo {
@@ -49,11 +52,16 @@ class FrameInput {
   std::vector<InputCount> counts() const;
 
   const std::string& colourTopic() const { return colour_.topic(); }
+  const std::string& depthTopic() const { return depth_.topic(); }
 
  private:
   void take(ImageStream stream, const ImageMessageConstPtr& message);
   void takeCameraInfo(const sensor_msgs::CameraInfoConstPtr& message);
+  void takeDepthInfo(const sensor_msgs::CameraInfoConstPtr& message);
   void deliver(ImagePair pair);
+  void giveOut(bool at_once);
+  bool expectsCalibration(const ros::Time& stamp) const;
+  void complete(ImagePair pair);
   void keepEarly(ImagePair pair);
   void countSingle(ImageStream stream);
   void watch();
@@ -71,14 +79,19 @@ class FrameInput {
   ImagePort colour_;
   ImagePort depth_;
   ros::Subscriber camera_info_subscriber_;
+  ros::Subscriber depth_info_subscriber_;
   ros::WallTimer timer_;
 
-  FrameQueue<ImagePair> early_;  // pairs that came before the calibration
+  std::deque<ImagePair> waiting_;  // for the calibration of their own stamp; the thread's own
+  ros::Time last_given_;           // stamp of the last pair that had it
+  FrameQueue<ImagePair> early_;    // pairs that came before the calibration
 
   mutable std::mutex mutex_;  // guards what follows
   std::array<InputCount, 2> image_counts_;
   InputCount camera_info_count_;
-  sensor_msgs::CameraInfoConstPtr camera_info_;
+  CalibrationHistory calibrations_;
+  CalibrationHistory depth_calibrations_;
+  ClockOffset clock_offset_;
   ros::WallTime last_pair_;
   double next_warning_;  // s of silence
 };

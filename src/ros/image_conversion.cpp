@@ -5,6 +5,8 @@
 #include <sensor_msgs/image_encodings.h>
 
 #include <algorithm>
+#include <initializer_list>
+#include <opencv2/imgproc.hpp>
 #include <string>
 
 #include "mivo/core/error.h"
@@ -21,15 +23,26 @@ constexpr double kMillimetre = 0.001;
   throw Error(what);
 }
 
-/// Bytes of one pixel. yuv422 has two channels in OpenCV and in ROS.
+bool isYuyv(const std::string& encoding) {
+  return encoding == "yuyv" || encoding == "yuv422_yuy2";
+}
+
+/// Luminance in full, followed by colour in half the resolution.
+bool isTwoPlanes(const std::string& encoding) {
+  return encoding == "nv12" || encoding == "nv21";
+}
+
+/// Bytes of one pixel in a row.
 std::size_t bytesPerPixel(const std::string& encoding) {
-  if (encoding == encodings::YUV422) return 2;
+  if (encoding == encodings::YUV422 || isYuyv(encoding)) return 2;
+  if (isTwoPlanes(encoding)) return 1;
   return static_cast<std::size_t>(encodings::numChannels(encoding)) *
          static_cast<std::size_t>(encodings::bitDepth(encoding)) / 8;
 }
 
 /// Sizes that contradict each other would make every reader run out of the message.
-void checkSizes(const sensor_msgs::Image& message) {
+/// @param rows  of `step` bytes
+void checkSizes(const sensor_msgs::Image& message, std::size_t rows) {
   if (message.width == 0 || message.height == 0) refuse("the image message is empty");
   const std::size_t row = message.width * bytesPerPixel(message.encoding);
   if (message.step < row) {
@@ -37,11 +50,15 @@ void checkSizes(const sensor_msgs::Image& message) {
            std::to_string(message.width) + " pixels of " + message.encoding + " need " +
            std::to_string(row));
   }
-  const std::size_t size = static_cast<std::size_t>(message.step) * message.height;
+  const std::size_t size = static_cast<std::size_t>(message.step) * rows;
   if (message.data.size() != size) {
     refuse("the image message holds " + std::to_string(message.data.size()) +
            " bytes, but its step and height make " + std::to_string(size));
   }
+}
+
+void checkSizes(const sensor_msgs::Image& message) {
+  checkSizes(message, message.height);
 }
 
 bool isForeignByteOrder(const sensor_msgs::Image& message) {
@@ -76,24 +93,73 @@ cv::Mat pixels(const sensor_msgs::Image& message, const std::string& target = {}
   }
 }
 
+/// Of a mosaic of 16 bits, which cv_bridge leaves to others. OpenCV names the four by their second
+/// row.
+cv::Mat demosaiced16(const sensor_msgs::Image& message) {
+  const std::string& encoding = message.encoding;
+  const int code = encoding == encodings::BAYER_RGGB16   ? cv::COLOR_BayerBG2BGR
+                   : encoding == encodings::BAYER_BGGR16 ? cv::COLOR_BayerRG2BGR
+                   : encoding == encodings::BAYER_GBRG16 ? cv::COLOR_BayerGR2BGR
+                                                         : cv::COLOR_BayerGB2BGR;
+  cv::Mat image;
+  cv::cvtColor(pixels(message), image, code);
+  return image;
+}
+
+/// The bytes of the message as they are.
+cv::Mat rawBytes(const sensor_msgs::Image& message, int rows, int type) {
+  return cv::Mat(rows, static_cast<int>(message.width), type,
+                 const_cast<std::uint8_t*>(message.data.data()), message.step);
+}
+
+cv::Mat fromYuyv(const sensor_msgs::Image& message) {
+  checkSizes(message);
+  cv::Mat image;
+  cv::cvtColor(rawBytes(message, static_cast<int>(message.height), CV_8UC2), image,
+               cv::COLOR_YUV2BGR_YUY2);
+  return image;
+}
+
+/// The height of the message is that of the image, or that of both planes.
+cv::Mat fromTwoPlanes(const sensor_msgs::Image& message) {
+  const bool has_both =
+      message.data.size() == static_cast<std::size_t>(message.step) * message.height;
+  const std::size_t rows = has_both ? message.height : message.height + message.height / 2;
+  if (rows % 3 != 0 || message.width % 2 != 0) {
+    refuse("image of encoding " + message.encoding + ": " + std::to_string(message.width) + " x " +
+           std::to_string(message.height) + " pixels have no two planes");
+  }
+  checkSizes(message, rows);
+  cv::Mat image;
+  cv::cvtColor(rawBytes(message, static_cast<int>(rows), CV_8UC1), image,
+               message.encoding == "nv21" ? cv::COLOR_YUV2BGR_NV21 : cv::COLOR_YUV2BGR_NV12);
+  return image;
+}
+
+bool isOneOf(const std::string& encoding, std::initializer_list<const char*> names) {
+  return std::find(names.begin(), names.end(), encoding) != names.end();
+}
+
 }  // namespace
 
 ColourImage toColourImage(const sensor_msgs::Image& message) {
   const std::string& encoding = message.encoding;
-  const bool grey = encoding == encodings::MONO8 || encoding == encodings::TYPE_8UC1 ||
-                    encoding == encodings::MONO16;
-  const bool rgb = encoding == encodings::RGB8 || encoding == encodings::RGBA8;
-  const bool bgr = encoding == encodings::BGR8 || encoding == encodings::BGRA8;
-  const bool mosaic = encodings::isBayer(encoding) && encodings::bitDepth(encoding) == 8;
-  if (!grey && !rgb && !bgr && !mosaic && encoding != encodings::YUV422) {
+  if (isYuyv(encoding)) return {fromYuyv(message), ChannelOrder::kBgr};
+  if (isTwoPlanes(encoding)) return {fromTwoPlanes(message), ChannelOrder::kBgr};
+  const bool rgb = isOneOf(encoding, {"rgb8", "rgba8", "rgb16", "rgba16"});
+  // Without names of the channels OpenCV's order is meant.
+  const bool as_it_is = rgb || isOneOf(encoding, {"mono8", "8UC1", "mono16", "bgr8", "bgra8",
+                                                  "bgr16", "bgra16", "8UC3", "8UC4"});
+  const bool mosaic = encodings::isBayer(encoding);
+  if (!as_it_is && !mosaic && encoding != encodings::YUV422) {
     refuse("colour image of encoding '" + encoding +
-           "': expected mono8, mono16, rgb8, bgr8, rgba8, bgra8, bayer_*8 or yuv422; is another "
-           "topic connected to "
-           "rgb/image?");
+           "': expected mono8, mono16, rgb8, bgr8, rgba8, bgra8, rgb16, bgr16, 8UC3, bayer_*, "
+           "yuv422, yuyv or nv12; is another topic connected to rgb/image?");
   }
   checkSizes(message);
-  if (grey || rgb || bgr) {
-    return {pixels(message), rgb ? ChannelOrder::kRgb : ChannelOrder::kBgr};
+  if (as_it_is) return {pixels(message), rgb ? ChannelOrder::kRgb : ChannelOrder::kBgr};
+  if (mosaic && encodings::bitDepth(encoding) == 16) {
+    return {demosaiced16(message), ChannelOrder::kBgr};
   }
   return {pixels(message, encodings::BGR8), ChannelOrder::kBgr};
 }

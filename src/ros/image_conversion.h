@@ -18,20 +18,22 @@ struct DepthImage {
 
 /// An image of the colour camera.
 struct ColourImage {
-  cv::Mat image;  ///< CV_8U with 1, 3 or 4 channels, or CV_16UC1
+  cv::Mat image;  ///< CV_8U or CV_16U with 1, 3 or 4 channels
   ChannelOrder order = ChannelOrder::kBgr;
 };
 
-/// Image of a colour message: mono8, 8UC1, mono16, rgb8, bgr8, rgba8, bgra8, bayer_*8, yuv422.
+/// Image of a colour message: mono8, mono16, rgb8, bgr8, rgba8, bgra8 and the same with 16 bits,
+/// 8UC1, 8UC3, 8UC4, bayer_*8 and bayer_*16, yuv422, yuyv, nv12, nv21.
 /// Nothing is copied where it can be avoided: the result refers to the message's pixels and must
 /// not outlive them. Throws Error, with the remedy, for another encoding or a message whose sizes
 /// contradict each other.
 ColourImage toColourImage(const sensor_msgs::Image& message);
 
-/// The same of a JPEG or PNG message of the transport "compressed". Throws Error.
+/// The same of a JPEG or PNG message of the transport "compressed"; a mosaic in it is demosaiced.
+/// Throws Error.
 ColourImage toColourImage(const sensor_msgs::CompressedImage& message);
 
-/// Grey image of either message: toGrey(toColourImage(message)).
+/// Grey image of either message, of 16 bits the highest: toGrey(toColourImage(message)).
 template <typename Message>
 cv::Mat toGreyImage(const Message& message) {
   const ColourImage colour = toColourImage(message);
@@ -42,8 +44,8 @@ cv::Mat toGreyImage(const Message& message) {
 /// result refers to the message's pixels when they are in this machine's byte order. Throws Error.
 DepthImage toDepthImage(const sensor_msgs::Image& message);
 
-/// Depth of a message of the transport "compressedDepth" (PNG, 16UC1 or 32FC1), or of a 16-bit PNG
-/// of the transport "compressed". Throws Error.
+/// Depth of a message of the transport "compressedDepth" (PNG or RVL, 16UC1 or 32FC1), or of a
+/// 16-bit PNG of the transport "compressed". Throws Error.
 DepthImage toDepthImage(const sensor_msgs::CompressedImage& message);
 
 }  // namespace mivo

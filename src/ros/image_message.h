@@ -6,9 +6,12 @@
 #include <sensor_msgs/CompressedImage.h>
 #include <sensor_msgs/Image.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <boost/make_shared.hpp>
 #include <boost/shared_ptr.hpp>
+#include <optional>
+#include <string>
 
 #include "ros/image_conversion.h"
 
@@ -41,11 +44,21 @@ inline ImageMessageConstPtr wrap(const sensor_msgs::CompressedImageConstPtr& mes
       ImageMessage{message->header, nullptr, message, ros::WallTime::now()});
 }
 
+/// Where a depth camera is that is not the colour camera.
+struct DepthGeometry {
+  sensor_msgs::CameraInfoConstPtr camera_info;
+  Eigen::Isometry3d T_colour_depth;  ///< its pose in the colour camera
+};
+
 /// A colour image, the depth image that belongs to it, and the calibration of both.
 struct ImagePair {
   ImageMessageConstPtr colour;
   ImageMessageConstPtr depth;
   sensor_msgs::CameraInfoConstPtr camera_info;
+  sensor_msgs::CameraInfoConstPtr depth_info = nullptr;  ///< null where depth has none of its own
+  std::string fault = "";  ///< why it cannot be believed; empty: it can
+  std::optional<DepthGeometry> depth_geometry =
+      std::nullopt;  ///< nothing: depth is registered to colour
 
   /// When both were there.
   ros::WallTime arrival() const { return std::max(colour->arrival, depth->arrival); }

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <string>
 
+#include "core/camera_doubt.h"
+
 namespace mivo {
 namespace {
 
@@ -30,9 +32,10 @@ void InputWarnings::lookAtClock(double age) {
 
 void InputWarnings::lookAtFrames(const ImagePair& pair, TransformSource& transforms) {
   const std_msgs::Header& colour = pair.colour->header;
-  lookAtClock((ros::Time::now() - colour.stamp).toSec());
+  // In doubles: times that do not belong together may differ by more than a Duration holds.
+  lookAtClock(ros::Time::now().toSec() - colour.stamp.toSec());
   const std::string& depth_frame = pair.depth->header.frame_id;
-  if (depth_frame != colour.frame_id && !has_warned_of_frames_) {
+  if (!pair.depth_geometry && depth_frame != colour.frame_id && !has_warned_of_frames_) {
     has_warned_of_frames_ = true;
     ROS_WARN(
         "colour is in the frame %s, depth in %s: the depth has to be registered to the colour "
@@ -53,6 +56,13 @@ void InputWarnings::lookAtParent(TransformSource& transforms) {
       "%s has another parent in tf, %s: a frame cannot have two; set publish_tf to false, or "
       "guess_frame_id to %s",
       parameters_.base_frame.c_str(), parent.c_str(), parent.c_str());
+}
+
+void InputWarnings::lookAtCamera(const Camera& camera) {
+  if (has_warned_of_camera_) return;
+  const std::string doubt = doubtOf(camera);
+  has_warned_of_camera_ = !doubt.empty();
+  if (has_warned_of_camera_) ROS_WARN("camera_info: %s", doubt.c_str());
 }
 
 void InputWarnings::lookAtDepth(const DepthSample& depth) {

@@ -17,6 +17,7 @@ class InputWarnings {
   /// transform too.
   void lookAtFrames(const ImagePair& pair, TransformSource& transforms);
   void lookAtDepth(const DepthSample& depth);
+  void lookAtCamera(const Camera& camera);
 
  private:
   void lookAtClock(double age);
@@ -27,6 +28,7 @@ class InputWarnings {
   bool has_warned_of_clock_ = false;
   bool has_warned_of_frames_ = false;
   bool has_warned_of_depth_ = false;
+  bool has_warned_of_camera_ = false;
   bool has_warned_of_parent_ = false;
 };
 

@@ -6,15 +6,37 @@
 #include "ros/stamp.h"
 
 namespace mivo {
-MessageFrame toFrame(const ImagePair& pair, bool rectified) {
-  MessageFrame result;
-  result.camera = toCamera(*pair.camera_info, rectified);
-  result.frame.stamp = toSeconds(pair.colour->header.stamp);
-  const ColourImage colour = pair.colour->toColourImage();
-  result.frame.image = toGrey(colour.image, colour.order);
+
+DepthImage FrameMaker::depthOf(const ImagePair& pair, const Camera& camera, const cv::Size& size) {
   const DepthImage depth = pair.depth->toDepthImage();
-  result.frame.depth = depth.image;
-  result.frame.depth_unit = depth.unit;
+  if (!pair.depth_geometry) return enlargeDepth(depth, size);
+  // Names of depth topics say rectified as those of colour do, but what a driver calls so has no
+  // distortion either way.
+  const Camera depth_camera =
+      toCamera(*pair.depth_geometry->camera_info, false, depth.image.size());
+  return registration_.toColour(depth, depth_camera, camera, pair.depth_geometry->T_colour_depth);
+}
+
+MessageImages FrameMaker::read(const ImagePair& pair) {
+  MessageImages images;
+  images.colour = pair.colour->toColourImage();
+  images.camera = toCamera(*pair.camera_info, rectified_, images.colour.image.size());
+  images.depth = depthOf(pair, images.camera, images.colour.image.size());
+  return images;
+}
+
+cv::Mat FrameMaker::toGrey(const ColourImage& colour) {
+  return mivo::toGrey(colour.image, colour.order, grey_range_.include(colour.image));
+}
+
+MessageFrame FrameMaker::make(const ImagePair& pair) {
+  const MessageImages images = read(pair);
+  MessageFrame result;
+  result.camera = images.camera;
+  result.frame.stamp = toSeconds(pair.colour->header.stamp);
+  result.frame.image = toGrey(images.colour);
+  result.frame.depth = images.depth.image;
+  result.frame.depth_unit = images.depth.unit;
   const std::string fault = findFault(result.frame, result.camera);
   if (!fault.empty()) throw Error(fault);
   return result;

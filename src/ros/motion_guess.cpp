@@ -33,7 +33,7 @@ void MotionGuess::look(const ros::Time& stamp,
 }
 
 bool MotionGuess::hasJumped(const LossParameters& limits) const {
-  const double seconds = (now_.stamp - before_.stamp).toSec();
+  const double seconds = now_.stamp.toSec() - before_.stamp.toSec();
   if (!before_.isKnown() || !now_.isKnown() || seconds <= 0.0) return false;
   const Vector6 motion =
       localCoordinates(before_.T_guess_camera().inverse() * now_.T_guess_camera());

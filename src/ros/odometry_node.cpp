@@ -6,13 +6,13 @@
 #include "core/execution/cpu_clock.h"
 #include "mivo/core/error.h"
 #include "ros/camera_conversion.h"
+#include "ros/depth_geometry.h"
 #include "ros/parameter_server.h"
+#include "ros/stamp.h"
 
 namespace mivo {
 namespace {
 
-constexpr double kTimeJump = 1.0;           // s: time was set back, the frame is not merely late
-constexpr int kStaleFramesOfAJump = 10;     // as many late frames in a row are a jump too
 constexpr double kLogPeriod = 5.0;          // s between messages of the same kind
 constexpr std::size_t kLongBacklog = 300;   // frames
 constexpr double kDiagnosticsPeriod = 1.0;  // s
@@ -32,6 +32,8 @@ OdometryNode::OdometryNode(const ros::NodeHandle& node, const ros::NodeHandle& p
       frames_(parameters_.drop_frames ? FrameQueue<ImagePair>::Policy::kNewest
                                       : FrameQueue<ImagePair>::Policy::kAll),
       warnings_(parameters_),
+      order_([this](ImagePair& pair, bool is_new_time) { process(pair, is_new_time); },
+             [this](ImagePair& pair, StampFault fault) { refuse(pair, fault); }),
       session_(readParameters(private_node)),
       trajectory_(parameters_),
       output_(private_node, parameters_),
@@ -39,8 +41,8 @@ OdometryNode::OdometryNode(const ros::NodeHandle& node, const ros::NodeHandle& p
       guess_(transforms_, parameters_) {
   ros::NodeHandle service_node = withQueue(private_node, service_queue_);
   input_ = std::make_unique<FrameInput>(withQueue(private_node, input_queue_), parameters_,
-                                        [this](const ImagePair& pair) { frames_.push(pair); });
-  rectified_ = isRectifiedTopic(input_->colourTopic());
+                                        [this](const ImagePair& pair) { enqueue(pair); });
+  frame_maker_.emplace(isRectifiedTopic(input_->colourTopic()));
   services_ =
       std::make_unique<OdometryServices>(service_node, static_cast<OdometryActions&>(*this));
   reconfigure_ = std::make_unique<ReconfigureServer>(
@@ -71,6 +73,14 @@ OdometryNode::~OdometryNode() {
   }
 }
 
+void OdometryNode::enqueue(const ImagePair& pair) {
+  frames_.push(pair);
+  if (parameters_.drop_frames || frames_.dropped() == 0) return;
+  ROS_WARN_THROTTLE(kLogPeriod,
+                    "more than %zu frames wait: the oldest are dropped, %lu so far; play slower",
+                    kMaxBacklog, static_cast<unsigned long>(frames_.dropped()));
+}
+
 void OdometryNode::work() {
   std::optional<ros::WallTime> closed;
   while (const std::optional<ImagePair> pair = frames_.pop()) {
@@ -86,37 +96,54 @@ void OdometryNode::work() {
       ROS_WARN_THROTTLE(kLogPeriod, "%zu frames wait: tracking is slower than the bag; play slower",
                         frames_.size());
     }
-    if (!paused_) process(*pair);
+    if (has_reset_.exchange(false)) order_.restart();
+    if (!paused_) order_.push(toSeconds(pair->colour->header.stamp), *pair);
   }
+  order_.flush();
 }
 
-void OdometryNode::process(const ImagePair& pair) {
+/// Depth of a camera beside the colour camera is registered, as soon as it is known where that is.
+void OdometryNode::locateDepth(ImagePair& pair) {
+  const std::string& colour = pair.colour->header.frame_id;
+  const std::string& depth = pair.depth->header.frame_id;
+  if (!pair.depth_info || !isUnregistered(colour, depth, input_->depthTopic())) return;
+  const std::optional<Eigen::Isometry3d> T_colour_depth = transforms_.between(colour, depth);
+  if (!T_colour_depth) {
+    throw Error(
+        describeMissingGeometry(colour, depth, cameraInfoBeside(input_->depthTopic()), true));
+  }
+  pair.depth_geometry = DepthGeometry{pair.depth_info, *T_colour_depth};
+}
+
+void OdometryNode::process(ImagePair pair, bool is_new_time) {
+  if (is_new_time) restartAfterJump();
   try {
+    if (!pair.fault.empty()) throw Error(pair.fault);
     const double begin = threadMilliseconds();
-    const MessageFrame input = toFrame(pair, rectified_);
+    locateDepth(pair);
+    const MessageFrame input = frame_maker_->make(pair);
+    if (repeated_.check(input.frame)) throw Error(RepeatedImage::kReason);
     track(pair, input, threadMilliseconds() - begin);
   } catch (const std::exception& error) {  // whatever it is: the manager's other nodelets go on
     skipped_.add(error.what(), ros::WallTime::now());
   }
 }
 
-bool OdometryNode::acceptStamp(const ros::Time& stamp) {
-  if (num_frames_ == 0 || stamp > last_stamp_) {
-    stale_frames_ = 0;
-    return true;
-  }
-  ++stale_frames_;
-  if ((last_stamp_ - stamp).toSec() <= kTimeJump && stale_frames_ < kStaleFramesOfAJump) {
-    return false;
-  }
-  stale_frames_ = 0;
-  restartAfterJump(stamp);
-  return true;
+/// A frame of no time gets the status of the frame before, and is counted.
+void OdometryNode::refuse(const ImagePair& pair, StampFault fault) {
+  skipped_.add(describe(fault), ros::WallTime::now());
+  FrameAccount account;
+  account.header = pair.colour->header;
+  account.pairing_offset = pair.depth->header.stamp.toSec() - pair.colour->header.stamp.toSec();
+  const std::lock_guard<std::mutex> lock(mutex_);
+  TrackingResult result = session_.result();
+  result.reason = TrackingReason::kStaleStamp;
+  publishStatus(result, account);
 }
 
-void OdometryNode::restartAfterJump(const ros::Time& stamp) {
-  ROS_WARN("time was set back by %.3f s (a looped bag?): tracking starts anew at the last pose",
-           (last_stamp_ - stamp).toSec());
+void OdometryNode::restartAfterJump() {
+  ROS_WARN("time was set back (a looped bag?): tracking starts anew at the last pose");
+  const std::lock_guard<std::mutex> lock(mutex_);
   session_.restart();
   startTrajectory();
 }
@@ -135,13 +162,14 @@ void OdometryNode::track(const ImagePair& pair, const MessageFrame& input, doubl
       transforms_.baseCamera(header.frame_id, header.stamp);
   guess_.look(header.stamp, T_base_camera);  // waits for tf: services must not wait for that too
   warnings_.lookAtFrames(pair, transforms_);
+  warnings_.lookAtCamera(input.camera);
 
   const std::lock_guard<std::mutex> lock(mutex_);
-  const TrackingResult& result = follow(input, header.stamp);
+  const TrackingResult& result = follow(input);
   FrameAccount account;
   account.header = header;
   account.conversion_cpu_ms = conversion_ms;
-  account.pairing_offset = (pair.depth->header.stamp - header.stamp).toSec();
+  account.pairing_offset = pair.depth->header.stamp.toSec() - header.stamp.toSec();
   if (result.isRefused()) {
     skipped_.add(describeReason(result), ros::WallTime::now());
   } else {
@@ -150,27 +178,29 @@ void OdometryNode::track(const ImagePair& pair, const MessageFrame& input, doubl
     state_log_.add(result, ros::WallTime::now());
     publish(pair, T_base_camera, account);
   }
-  account.frames = num_frames_;
-  account.skipped_frames = skipped_.counts().total;
-  account.dropped_frames = frames_.dropped();
-  account.latency = (ros::Time::now() - header.stamp).toSec();
-  const TrackingStatus status = toMessage(result, account);
-  output_.publishStatus(status);
+  publishStatus(result, account);
   if (result.isRefused()) return;
   const DepthSample depth = sampleDepth(input.frame);
   warnings_.lookAtDepth(depth);
-  diagnostics_.addFrame(status, depth);
+  diagnostics_.addFrame(toMessage(result, account), depth);
 }
 
-/// A frame that is not newer than the one before is left to the tracker to refuse.
-const TrackingResult& OdometryNode::follow(const MessageFrame& input, const ros::Time& stamp) {
-  if (acceptStamp(stamp) && session_.setCamera(input.camera)) {
+void OdometryNode::publishStatus(const TrackingResult& result, FrameAccount& account) {
+  account.frames = num_frames_;
+  account.skipped_frames = skipped_.counts().total;
+  account.dropped_frames = frames_.dropped();
+  // In doubles: a difference of times that do not belong together may not fit into a Duration.
+  account.latency = ros::Time::now().toSec() - account.header.stamp.toSec();
+  output_.publishStatus(toMessage(result, account));
+}
+
+const TrackingResult& OdometryNode::follow(const MessageFrame& input) {
+  if (session_.setCamera(input.camera)) {
     ROS_WARN("the camera's calibration has changed: tracking starts anew at the last pose");
   }
   const std::optional<Eigen::Isometry3d> start =
       guess_.start(session_.lastMeasured(), session_.parameters().loss);
   const TrackingResult& result = session_.process(input.frame, start ? &*start : nullptr);
-  if (!result.isRefused()) last_stamp_ = stamp;
   if (result.isMeasured()) guess_.keep();
   return result;
 }
@@ -203,6 +233,7 @@ void OdometryNode::publishDiagnostics() {
 void OdometryNode::reset() {
   const std::lock_guard<std::mutex> lock(mutex_);
   session_.reset();
+  has_reset_ = true;
   num_frames_ = 0;
   startTrajectory();
   output_.reset();

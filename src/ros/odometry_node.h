@@ -26,6 +26,8 @@
 #include "ros/status_conversion.h"
 #include "ros/trajectory_recorder.h"
 #include "ros/transform_source.h"
+#include "session/frame_order.h"
+#include "session/repeated_image.h"
 #include "session/tracking_session.h"
 
 namespace mivo {
@@ -42,15 +44,18 @@ class OdometryNode : private OdometryActions {
   ~OdometryNode();
 
  private:
+  void enqueue(const ImagePair& pair);
   void work();
-  void process(const ImagePair& pair);
+  void process(ImagePair pair, bool is_new_time);
+  void refuse(const ImagePair& pair, StampFault fault);
+  void locateDepth(ImagePair& pair);
   void track(const ImagePair& pair, const MessageFrame& input, double conversion_ms);
-  const TrackingResult& follow(const MessageFrame& input, const ros::Time& stamp);
-  bool acceptStamp(const ros::Time& stamp);
+  const TrackingResult& follow(const MessageFrame& input);
+  void publishStatus(const TrackingResult& result, FrameAccount& account);
   void publish(const ImagePair& pair, const std::optional<Eigen::Isometry3d>& T_base_camera,
                FrameAccount& account);
   void record(const TrackingResult& result);
-  void restartAfterJump(const ros::Time& stamp);
+  void restartAfterJump();
   void startTrajectory();
   void publishDiagnostics();
 
@@ -62,23 +67,24 @@ class OdometryNode : private OdometryActions {
 
   NodeParameters parameters_;
   OdometryDiagnostics& diagnostics_;
-  bool rectified_ = false;
 
   ros::CallbackQueue input_queue_;
   ros::CallbackQueue service_queue_;
   FrameQueue<ImagePair> frames_;
   SkippedFrames skipped_;
   std::atomic<bool> paused_{false};
-  InputWarnings warnings_;  // the worker's own
+  InputWarnings warnings_;       // the worker's own, as the next three
+  FrameOrder<ImagePair> order_;  // whose stamps are believed
+  std::optional<FrameMaker> frame_maker_;
+  RepeatedImage repeated_;
+  std::atomic<bool> has_reset_{false};  // told to the worker
 
   std::mutex mutex_;  // guards the tracker and what belongs to it, from here to the empty line
   TrackingSession session_;
   TrajectoryRecorder trajectory_;
   OdometryOutput output_;
   StateLog state_log_;
-  ros::Time last_stamp_;
   std::uint64_t num_frames_ = 0;
-  int stale_frames_ = 0;  // in a row
 
   TransformSource transforms_;
   MotionGuess guess_;  // the worker's own

@@ -4,6 +4,8 @@
 #include <exception>
 #include <memory>
 #include <pluginlib/class_list_macros.hpp>
+#include <stdexcept>
+#include <string>
 
 #include "ros/odometry_node.h"
 
@@ -29,7 +31,9 @@ class OdometryNodelet : public nodelet::Nodelet {
     } catch (const std::exception& error) {  // whatever it is: the manager goes on
       if (getPrivateNodeHandle().param("required", false)) {
         NODELET_ERROR_STREAM("cannot start: " << error.what());
-        throw;  // the manager refuses to load it
+        // The manager refuses to load it, and then unloads this library: an exception of a type
+        // from in here would outlive its code.
+        throw std::runtime_error(error.what());
       }
       NODELET_ERROR_STREAM("idle: " << error.what());
       diagnostics_->setFault(error.what());

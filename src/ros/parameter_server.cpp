@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <limits>
 #include <locale>
-#include <numeric>
 #include <sstream>
 
+#include "core/nearest_name.h"
 #include "mivo/core/error.h"
 #include "ros/ros_parameter.h"
 
@@ -26,40 +26,24 @@ std::string toText(bool value) {
   return value ? "true" : "false";
 }
 
-/// Value of a ROS parameter as the text that setParameter takes. A string is passed on only to an
-/// enumeration: "8" for a number is a mistake of the launch file that should be seen.
-std::string valueText(const ParameterInfo& info, const XmlRpc::XmlRpcValue& value,
-                      const std::string& name) {
+/// Value of a ROS parameter as the text that setParameter takes. roslaunch and rosparam read YAML
+/// by rules of their own, by which 1e-4 is a string: what a string means is decided where the
+/// values of configuration files are.
+std::string valueText(const XmlRpc::XmlRpcValue& value, const std::string& name) {
   using Value = XmlRpc::XmlRpcValue;
-  const bool enumeration = info.type == ParameterInfo::Type::kEnum;
-  const bool number =
-      info.type == ParameterInfo::Type::kInt || info.type == ParameterInfo::Type::kDouble;
   Value copy = value;  // the conversions of XmlRpcValue are not const everywhere
-  if (value.getType() == Value::TypeString && enumeration) return static_cast<std::string&>(copy);
-  if (value.getType() == Value::TypeInt && number) return std::to_string(static_cast<int&>(copy));
-  if (value.getType() == Value::TypeDouble && number) return toText(static_cast<double&>(copy));
-  if (value.getType() == Value::TypeBoolean && info.type == ParameterInfo::Type::kBool) {
-    return toText(static_cast<bool&>(copy));
+  switch (value.getType()) {
+    case Value::TypeString:
+      return static_cast<std::string&>(copy);
+    case Value::TypeInt:
+      return std::to_string(static_cast<int&>(copy));
+    case Value::TypeDouble:
+      return toText(static_cast<double&>(copy));
+    case Value::TypeBoolean:
+      return toText(static_cast<bool&>(copy));
+    default:
+      throw Error("parameter '" + name + "' is " + typeText(value) + ", expected a single value");
   }
-  const char* const expected[] = {"a whole number", "a number", "true or false", "a word"};
-  throw Error("parameter '" + name + "' is " + typeText(value) + ", expected " +
-              expected[static_cast<int>(info.type)]);
-}
-
-/// Fewest insertions, deletions and replacements of a character that turn a into b.
-std::size_t editDistance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), std::size_t{0});
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i + 1;
-    for (std::size_t j = 0; j < b.size(); ++j) {
-      const std::size_t replaced = diagonal + (a[i] == b[j] ? 0 : 1);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
-    }
-  }
-  return row.back();
 }
 
 template <typename Entries>
@@ -88,7 +72,11 @@ Parameters readParameters(const ros::NodeHandle& node) {
   for (const ParameterInfo& info : parameterTable()) {
     XmlRpc::XmlRpcValue value;
     if (!node.getParam(info.name, value)) continue;
-    setParameter(parameters, info.name, valueText(info, value, node.resolveName(info.name)));
+    try {
+      setParameter(parameters, info.name, valueText(value, node.resolveName(info.name)));
+    } catch (const Error& error) {
+      throw Error(node.getNamespace() + ": " + error.what());
+    }
   }
   parameters.validate();
   return parameters;
@@ -108,12 +96,8 @@ std::vector<std::string> findUnknownParameters(const ros::NodeHandle& node,
     const std::string name = full_name.substr(prefix.size());
     if (name.find('/') != std::string::npos) continue;
     if (std::find(known.begin(), known.end(), name) != known.end()) continue;
-    const auto nearest = std::min_element(known.begin(), known.end(),
-                                          [&](const std::string& a, const std::string& b) {
-                                            return editDistance(a, name) < editDistance(b, name);
-                                          });
-    faults.push_back("unknown parameter '" + full_name + "' has no effect; did you mean '" +
-                     *nearest + "'?");
+    faults.push_back("unknown parameter '" + full_name + "' has no effect" +
+                     didYouMean(name, known));
   }
   return faults;
 }

@@ -12,13 +12,14 @@
 namespace mivo {
 
 /// The parameters of the tracker under the private name of a node; those that are not set keep
-/// their defaults. A whole number does for a parameter with decimals. Throws Error, naming the
-/// parameter and its range, for a wrong type or a value out of range.
+/// their defaults. Values mean what they do in a configuration file: a string "1e-4" is a number,
+/// "off" a switch. Throws Error, naming the parameter and its range, for what is none of the type
+/// or out of range.
 Parameters readParameters(const ros::NodeHandle& node);
 
 /// Names under the private name of a node that are neither the tracker's nor among `others`, each
-/// as a line that says the nearest known name. Names with a slash belong to someone else: to a
-/// transport or to dynamic_reconfigure, say.
+/// as a line that says the nearest known name where one is near. Names with a slash belong to
+/// someone else: to a transport or to dynamic_reconfigure, say.
 std::vector<std::string> findUnknownParameters(const ros::NodeHandle& node,
                                                const std::vector<std::string>& others);
 

@@ -8,7 +8,8 @@
 namespace mivo {
 namespace {
 
-constexpr double kMaxNormError = 0.1;
+// Of a quaternion: a smaller one is no rotation but a field that was never filled in.
+constexpr double kMinNorm = 1e-6;
 
 template <typename Vector, typename Quaternion>
 void write(const Eigen::Isometry3d& T, Vector& position, Quaternion& orientation) {
@@ -29,9 +30,9 @@ Eigen::Isometry3d read(const Vector& position, const Quaternion& orientation) {
   const Eigen::Vector3d t(position.x, position.y, position.z);
   const Eigen::Quaterniond q(orientation.w, orientation.x, orientation.y, orientation.z);
   if (!t.allFinite()) throw Error("the position of the pose is not finite");
-  if (!(std::abs(q.norm() - 1.0) <= kMaxNormError)) {
+  if (!std::isfinite(q.norm()) || q.norm() < kMinNorm) {
     throw Error("the quaternion of the pose has the length " + std::to_string(q.norm()) +
-                ", expected 1");
+                ": it says no rotation");
   }
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
   T.linear() = q.normalized().toRotationMatrix();

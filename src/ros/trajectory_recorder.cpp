@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "io/numbered_path.h"
 #include "mivo/core/error.h"
 
 namespace mivo {
@@ -20,13 +21,9 @@ std::string TrajectoryRecorder::resolve(const std::string& path) const {
 void TrajectoryRecorder::openFile() {
   file_.reset();
   if (parameters_.trajectory_file.empty()) return;
-  fs::path path = resolve(parameters_.trajectory_file);
-  if (number_ > 1) {
-    path.replace_filename(path.stem().string() + '_' + std::to_string(number_) +
-                          path.extension().string());
-  }
   file_ = std::make_unique<TrajectoryWriter>(
-      path.string(), parameters_.trajectory_force ? Overwrite::kYes : Overwrite::kNo);
+      numberedPath(resolve(parameters_.trajectory_file), number_),
+      parameters_.trajectory_force ? Overwrite::kYes : Overwrite::kNo);
 }
 
 void TrajectoryRecorder::add(const StampedPose& pose) {

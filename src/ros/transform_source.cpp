@@ -73,6 +73,17 @@ std::optional<Eigen::Isometry3d> TransformSource::guessBase(const ros::Time& sta
   }
 }
 
+std::optional<Eigen::Isometry3d> TransformSource::between(const std::string& target,
+                                                          const std::string& source) {
+  try {
+    return toIsometry(
+        buffer_.lookupTransform(withoutSlash(target), withoutSlash(source), ros::Time(0))
+            .transform);
+  } catch (const std::exception&) {
+    return std::nullopt;
+  }
+}
+
 std::string TransformSource::parentOfBase() {
   std::string parent;
   return buffer_._getParent(base_frame_, ros::Time(0), parent) ? parent : std::string();

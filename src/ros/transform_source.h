@@ -28,6 +28,9 @@ class TransformSource {
   std::optional<Eigen::Isometry3d> guessBase(const ros::Time& stamp,
                                              const ros::WallDuration& timeout);
 
+  /// Pose of a frame in another, the latest that is known; nothing when tf does not know it.
+  std::optional<Eigen::Isometry3d> between(const std::string& target, const std::string& source);
+
   /// Parent of the base in tf; empty when it has none.
   std::string parentOfBase();
 

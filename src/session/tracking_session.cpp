@@ -3,12 +3,13 @@
 
 #include <algorithm>
 
+#include "core/camera_doubt.h"
 #include "session/twist_covariance.h"
 
 namespace mivo {
 
 bool TrackingSession::setCamera(const Camera& camera) {
-  if (odometry_ && odometry_->camera() == camera) return false;
+  if (odometry_ && isSameButForRounding(odometry_->camera(), camera)) return false;
   auto odometry = std::make_unique<Odometry>(camera, parameters_);
   const bool is_change = odometry_ != nullptr;
   if (is_change) {

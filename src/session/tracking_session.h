@@ -15,8 +15,8 @@ class TrackingSession {
  public:
   explicit TrackingSession(const Parameters& parameters) : parameters_(parameters) {}
 
-  /// Whether the calibration is another one than before: tracking starts anew at the last pose
-  /// then. Throws Error for an invalid camera.
+  /// Whether the calibration is another one than before, by more than rounding: tracking starts
+  /// anew at the last pose then. Throws Error for an invalid camera.
   bool setCamera(const Camera& camera);
   bool hasCamera() const { return odometry_ != nullptr; }
 

@@ -72,8 +72,40 @@ TEST(ToGreyTest, SixteenBitsGiveTheirHighByte) {
   EXPECT_EQ(wrong, 0);
 }
 
+TEST(ToGreyTest, FewerBitsGiveTheirHighestEight) {
+  for (const int bits : {8, 10, 12, 14}) {
+    const int count = 1 << bits;
+    cv::Mat image(1, count, CV_16UC1);
+    for (int i = 0; i < count; ++i) {
+      image.at<unsigned short>(0, i) = static_cast<unsigned short>(i);
+    }
+    const cv::Mat grey = toGrey(image, ChannelOrder::kRgb, bits);
+    int wrong = 0;
+    for (int i = 0; i < count; ++i) {
+      if (grey.at<unsigned char>(0, i) != i >> (bits - 8)) ++wrong;
+    }
+    EXPECT_EQ(wrong, 0) << bits;
+    const cv::Mat beyond(1, 1, CV_16UC1, cv::Scalar(65535));
+    EXPECT_EQ(toGrey(beyond, ChannelOrder::kRgb, bits).at<unsigned char>(0, 0), 255);
+  }
+}
+
+TEST(ToGreyTest, SixteenBitColourIsThatOfEightBits) {
+  cv::Mat colour(1, 3, CV_8UC3);
+  colour.at<cv::Vec3b>(0, 0) = {250, 100, 5};
+  colour.at<cv::Vec3b>(0, 1) = {0, 255, 17};
+  colour.at<cv::Vec3b>(0, 2) = {90, 91, 92};
+  cv::Mat wide;
+  colour.convertTo(wide, CV_16U, 257.0);
+  for (const ChannelOrder order : {ChannelOrder::kRgb, ChannelOrder::kBgr}) {
+    EXPECT_TRUE(isSame(toGrey(wide, order), toGrey(colour, order)));
+  }
+  colour.convertTo(wide, CV_16U, 4.0);
+  EXPECT_TRUE(isSame(toGrey(wide, ChannelOrder::kBgr, 10), toGrey(colour, ChannelOrder::kBgr)));
+}
+
 TEST(ToGreyTest, OtherTypesAreRefusedByName) {
-  for (const int type : {CV_32FC1, CV_16UC3, CV_8UC2, CV_16SC1}) {
+  for (const int type : {CV_32FC1, CV_16UC2, CV_8UC2, CV_16SC1}) {
     try {
       toGrey(cv::Mat(4, 4, type, cv::Scalar::all(1)), ChannelOrder::kRgb);
       ADD_FAILURE() << type;

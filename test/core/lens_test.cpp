@@ -44,6 +44,77 @@ const Distortion kStrongBarrel = {-0.4, 0.0, 0.0, 0.0, 0.0};
 const Distortion kLateFold = {0.3, -0.2, 0.0, 0.0, -2.5};
 const Distortion kTangential = {-0.25, 0.0, 0.03, -0.03, 0.0};
 
+/// Eight coefficients, as an Azure Kinect's.
+const Distortion kRational = {0.62, -2.74, 0.0005, -0.0002, 1.54, 0.49, -2.55, 1.46};
+
+/// 120 degrees wide, 145 from corner to corner.
+Camera fisheye() {
+  Camera camera =
+      withLens({0.03, -0.01, 0.0, 0.0, 0.002, -0.0005, 0.0, 0.0, LensModel::kEquidistant});
+  camera.fx = camera.fy = 0.5 * camera.width / camera.distort({std::tan(M_PI / 3.0), 0.0}).x();
+  return camera;
+}
+
+TEST(LensTest, DistortionIsThatOfTheFormulas) {
+  const double x = 0.4;
+  const double y = -0.3;  // r = 0.5
+  const auto expectDistorted = [&](const Distortion& d, double px, double py) {
+    const Eigen::Vector2d pixel = withLens(d).distort({x, y});
+    EXPECT_NEAR(pixel.x(), px, 1e-14);
+    EXPECT_NEAR(pixel.y(), py, 1e-14);
+  };
+  // 1 + 0.25 k1 + 0.0625 k2 + 0.015625 k3 over the same of k4 to k6.
+  const double scale = (1.0 + 0.25 * 0.8 - 0.0625 * 0.4 + 0.015625 * 0.32) /
+                       (1.0 + 0.25 * 0.4 + 0.0625 * 0.8 - 0.015625 * 0.64);
+  expectDistorted({0.8, -0.4, 0.0, 0.0, 0.32, 0.4, 0.8, -0.64}, x * scale, y * scale);
+  const double angle = std::atan(0.5);
+  const double radius = angle + 0.1 * std::pow(angle, 3) - 0.2 * std::pow(angle, 5) +
+                        0.3 * std::pow(angle, 7) - 0.4 * std::pow(angle, 9);
+  expectDistorted({0.1, -0.2, 0.0, 0.0, 0.3, -0.4, 0.0, 0.0, LensModel::kEquidistant},
+                  x * radius / 0.5, y * radius / 0.5);
+}
+
+TEST(LensTest, TheDerivativeIsThatOfTheDistortion) {
+  constexpr double kStep = 1e-6;
+  for (const Camera& camera : {withLens(kRational), fisheye(), withLens(kStrongBarrel)}) {
+    for (const Eigen::Vector2d& point : {Eigen::Vector2d(0.0, 0.0), Eigen::Vector2d(1e-7, 0.0),
+                                         Eigen::Vector2d(0.3, -0.2), Eigen::Vector2d(-0.5, 0.4)}) {
+      Eigen::Matrix2d derivative;
+      camera.distort(point, &derivative);
+      for (int k = 0; k < 2; ++k) {
+        const Eigen::Vector2d step = kStep * Eigen::Vector2d::Unit(k);
+        const Eigen::Vector2d numeric =
+            (camera.distort(point + step) - camera.distort(point - step)) / (2.0 * kStep);
+        EXPECT_LT((derivative.col(k) - numeric).norm(), 1e-8);
+      }
+    }
+  }
+}
+
+TEST(LensTest, EachPixelOfLensesOfEightCoefficientsAndOfAFisheyeHasItsRay) {
+  for (const Camera& camera : {withLens(kRational), fisheye()}) {
+    EXPECT_NO_THROW(camera.validate());
+    const LensRange range = camera.lensRange();
+    EXPECT_GT(range.distorted, cornerRadius(camera));
+    for (int y = 0; y < camera.height; ++y) {
+      for (int x = 0; x < camera.width; ++x) {
+        const auto ray = camera.ray({x, y}, range);
+        ASSERT_TRUE(ray);
+        EXPECT_LT((*testing::project(camera, *ray) - Eigen::Vector2d(x, y)).norm(), 1e-9);
+      }
+    }
+  }
+  EXPECT_EQ(*fisheye().ray({fisheye().cx, fisheye().cy}), Eigen::Vector3d::UnitZ());
+}
+
+TEST(LensTest, APureFisheyeIsNoPinhole) {
+  Distortion zeros;
+  EXPECT_TRUE(zeros.isZero());
+  zeros.model = LensModel::kEquidistant;
+  EXPECT_FALSE(zeros.isZero());
+  EXPECT_NE(zeros, Distortion());
+}
+
 TEST(LensTest, WithoutDistortionEachPixelHasARay) {
   const Camera camera = smallCamera();
   EXPECT_TRUE(std::isinf(camera.lensRange().distorted));
@@ -107,16 +178,30 @@ TEST(LensTest, PixelsBeyondTheFoldHaveNoRayAndAllOthersTheirOwn) {
 }
 
 /// A lens of any kind, none too mild to be interesting.
-Distortion randomLens(Random& random) {
-  return {random.uniform(-1.0, 0.6), random.uniform(-0.6, 0.6), random.uniform(-0.02, 0.02),
-          random.uniform(-0.02, 0.02), random.uniform(-0.4, 0.4)};
+Distortion randomLens(Random& random, int kind) {
+  if (kind == 2) {
+    return {random.uniform(-0.1, 0.1),   random.uniform(-0.05, 0.05), 0.0, 0.0,
+            random.uniform(-0.02, 0.02), random.uniform(-0.01, 0.01), 0.0, 0.0,
+            LensModel::kEquidistant};
+  }
+  Distortion lens = {random.uniform(-1.0, 0.6), random.uniform(-0.6, 0.6),
+                     random.uniform(-0.02, 0.02), random.uniform(-0.02, 0.02),
+                     random.uniform(-0.4, 0.4)};
+  if (kind == 1) {
+    lens.k4 = random.uniform(-0.5, 0.5);
+    lens.k5 = random.uniform(-0.3, 0.3);
+    lens.k6 = random.uniform(-0.2, 0.2);
+  }
+  return lens;
 }
 
 // The kernels have six steps in floats and test nothing: each pixel they are given must be right.
 TEST(LensTest, TheKernelsFindTheRayOfEachPixelWithinTheRange) {
   Random random(7);
   for (int trial = 0; trial < 300; ++trial) {
-    const Camera camera = withLens(randomLens(random));
+    const int kind = trial % 3;
+    Camera camera = withLens(randomLens(random, kind));
+    if (kind == 2) camera.fx = camera.fy = fisheye().fx;
     const LensRange range = camera.lensRange();
     std::vector<float> u;
     std::vector<float> v;
@@ -140,7 +225,10 @@ TEST(LensTest, TheKernelsFindTheRayOfEachPixelWithinTheRange) {
       const Eigen::Vector3d point = Eigen::Vector3f(points.x[i], points.y[i], 1.0F).cast<double>();
       const auto ray = camera.ray({static_cast<double>(u[i]), static_cast<double>(v[i])}, range);
       ASSERT_TRUE(ray) << trial;
-      ASSERT_LT((point - *ray).norm() * camera.fx, 2e-3) << trial;
+      // In pixels: towards the side of a fisheye a pixel holds more and more of the plane.
+      Eigen::Matrix2d scale = Eigen::Matrix2d::Identity();
+      if (kind == 2) camera.distort(ray->head<2>(), &scale);
+      ASSERT_LT((scale * (point - *ray).head<2>()).norm() * camera.fx, 2e-3) << trial;
     }
     for (const double sum : motion) ASSERT_TRUE(std::isfinite(sum)) << trial;
   }
@@ -204,9 +292,11 @@ TEST(LensTest, NoPointOfAKeyframeLiesBeyondTheFold) {
   }
 }
 
-TEST(LensTest, AnOdometryIsPreciseBehindALensThatFoldsInTheCorners) {
-  for (const Distortion& lens : {kStrongBarrel, kLateFold, kTangential}) {
-    const testing::Recording recording = testing::recordWalk(12, withLens(lens));
+TEST(LensTest, AnOdometryIsPreciseBehindEachLens) {
+  for (const Camera& camera : {withLens(kStrongBarrel), withLens(kLateFold), withLens(kTangential),
+                               withLens(kRational), fisheye()}) {
+    const Distortion& lens = camera.distortion;
+    const testing::Recording recording = testing::recordWalk(12, camera);
     Odometry odometry(recording.camera, {});
     for (std::size_t i = 0; i < recording.frames.size(); ++i) {
       const TrackingResult& result = odometry.process(recording.frames[i]);

@@ -30,19 +30,48 @@ TEST(AbsoluteTrajectoryErrorTest, MovedTrajectoryHasNone) {
   twist << 3.0, 2.0, 1.0, 0.3, -0.2, 2.0;
   const Eigen::Isometry3d T = expSe3(twist);
   for (StampedPose& pose : estimate) pose.pose = T.inverse() * pose.pose;
-  const AbsoluteTrajectoryError error = absoluteTrajectoryError(truth, estimate, 0.02);
+  const AbsoluteTrajectoryError error = absoluteTrajectoryError(matchPoses(truth, estimate, 0.02));
   EXPECT_TRUE(error.T_truth_estimate.isApprox(T, 1e-12));
-  ASSERT_EQ(error.errors.size(), 36U);
-  for (const double value : error.errors) EXPECT_NEAR(value, 0.0, 1e-12);
+  ASSERT_EQ(error.errors().size(), 36U);
+  for (const double value : error.errors()) EXPECT_NEAR(value, 0.0, 1e-12);
 }
 
 TEST(AbsoluteTrajectoryErrorTest, WrongRadiusIsSeenAtEachPose) {
   const Trajectory truth = circle(36);
   Trajectory estimate = truth;
   for (StampedPose& pose : estimate) pose.pose.translation() *= 1.1;  // no scale is corrected
-  for (const double value : absoluteTrajectoryError(truth, estimate, 0.02).errors) {
+  for (const double value : absoluteTrajectoryError(matchPoses(truth, estimate, 0.02)).errors()) {
     EXPECT_NEAR(value, 0.1, 1e-12);
   }
+}
+
+TEST(AbsoluteTrajectoryErrorTest, FreeScaleTakesTheWrongRadiusAway) {
+  const Trajectory truth = circle(36);
+  Trajectory estimate = truth;
+  for (StampedPose& pose : estimate) {
+    pose.pose.translation() = 1.25 * pose.pose.translation() + Eigen::Vector3d(1.0, 2.0, 3.0);
+  }
+  const AbsoluteTrajectoryError error =
+      absoluteTrajectoryError(matchPoses(truth, estimate, 0.02), AlignmentScale::kFree);
+  EXPECT_NEAR(error.scale, 0.8, 1e-12);
+  for (const double value : error.errors()) EXPECT_NEAR(value, 0.0, 1e-12);
+  for (const double value : error.rotations) EXPECT_NEAR(value, 0.0, 1e-7);
+}
+
+TEST(AbsoluteTrajectoryErrorTest, ErrorsByAxisAndByAngle) {
+  const Trajectory truth = circle(36);
+  Trajectory estimate = truth;
+  for (std::size_t i = 0; i < estimate.size(); ++i) {
+    // In turns up and down, so that nothing is gained by moving the whole.
+    estimate[i].pose.translation().z() += i % 2 == 0 ? 0.05 : -0.05;
+    estimate[i].pose.rotate(Eigen::AngleAxisd(0.02, Eigen::Vector3d::UnitX()));
+  }
+  const AbsoluteTrajectoryError error = absoluteTrajectoryError(matchPoses(truth, estimate, 0.02));
+  for (const Eigen::Vector3d& difference : error.differences) {
+    EXPECT_NEAR(difference.x(), 0.0, 1e-3);
+    EXPECT_NEAR(std::abs(difference.z()), 0.05, 1e-3);
+  }
+  for (const double value : error.rotations) EXPECT_NEAR(value, 0.02, 1e-3);
 }
 
 TEST(AbsoluteTrajectoryErrorTest, OnlyPosesWithTruthNearbyCount) {
@@ -50,16 +79,14 @@ TEST(AbsoluteTrajectoryErrorTest, OnlyPosesWithTruthNearbyCount) {
   Trajectory estimate = truth;
   for (StampedPose& pose : estimate) pose.stamp += 0.015;
   estimate[3].stamp += 0.03;
-  EXPECT_EQ(absoluteTrajectoryError(truth, estimate, 0.02).errors.size(), 35U);
+  EXPECT_EQ(absoluteTrajectoryError(matchPoses(truth, estimate, 0.02)).errors().size(), 35U);
 }
 
 TEST(AbsoluteTrajectoryErrorTest, TooFewCommonPosesAreAnError) {
   const Trajectory truth = circle(36);
   Trajectory estimate = truth;
   for (StampedPose& pose : estimate) pose.stamp += 100.0;
-  EXPECT_EQ(
-      errorText([&] { absoluteTrajectoryError(truth, estimate, 0.02); }).find("only 0 of 36 poses"),
-      0U);
+  EXPECT_EQ(errorText([&] { matchPoses(truth, estimate, 0.02); }).find("only 0 of 36 poses"), 0U);
 }
 
 }  // namespace

@@ -100,14 +100,33 @@ TEST(RelativePoseErrorTest, DeltaBeyondTheEndHasNoPairs) {
   EXPECT_TRUE(relativePoseErrors(truth, truth, 5.0, kLimit).empty());
 }
 
-TEST(RelativePoseErrorTest, FrameToFrameGoesFromPoseToPoseWhateverTheirDistance) {
+TEST(RelativePoseErrorTest, APoseIsNotComparedWithItself) {
+  const Trajectory truth = screw(velocityOf({0.5, 0.0, 0.0}, {0, 0, 0}), 31);
+  EXPECT_TRUE(relativePoseErrors(truth, truth, 0.01, kLimit).empty());
+  // Nor are two poses with one true pose.
+  EXPECT_TRUE(relativePoseErrors({truth[15]}, truth, 1.0, 10.0).empty());
+}
+
+TEST(RelativePoseErrorTest, StepsGoFromMatchedPoseToMatchedPose) {
   const Trajectory truth = screw(velocityOf({1.0, 0.0, 0.0}, {0, 0, 0}), 31);
   Trajectory estimate = screw(velocityOf({1.1, 0.0, 0.0}, {0, 0, 0}), 31);
   estimate.erase(estimate.begin() + 10, estimate.begin() + 14);
-  const auto errors = frameToFrameErrors(truth, estimate, kLimit);
-  ASSERT_EQ(errors.size(), estimate.size() - 2);
+  const auto errors = stepErrors(matchPoses(truth, estimate, kLimit));
+  ASSERT_EQ(errors.size(), estimate.size() - 1);
   EXPECT_NEAR(errors[0].translation, 0.01, 1e-12);
   EXPECT_NEAR(errors[9].translation, 0.05, 1e-12);  // over the gap of 5 periods
+}
+
+TEST(RelativePoseErrorTest, PathPairsAreMetresOfTheTruePathApart) {
+  // 0.1 m a step: marks at 0.5 m, 1.0 m, ..., 3.0 m, and pairs from each to the next.
+  const Trajectory truth = screw(velocityOf({1.0, 0.0, 0.0}, {0, 0, 0}), 31);
+  const Trajectory estimate = screw(velocityOf({1.1, 0.0, 0.0}, {0, 0, 0}), 31);
+  const MatchedPoses poses = matchPoses(truth, estimate, kLimit);
+  const auto errors = pathErrors(poses, 0.5 - 1e-9);
+  ASSERT_EQ(errors.size(), 5U);
+  for (const RelativePoseError& error : errors) EXPECT_NEAR(error.translation, 0.05, 1e-12);
+  EXPECT_NEAR(errors[0].stamp, 10.5, 1e-12);
+  EXPECT_TRUE(pathErrors(poses, 2.0).empty());  // a second mark is not reached
 }
 
 }  // namespace

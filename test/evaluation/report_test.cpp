@@ -57,7 +57,7 @@ TEST(ReportTest, FiguresOfAKnownDrift) {
 
 TEST(ReportTest, DeltaChangesWhatIsMeasured) {
   const auto figures =
-      figuresOf(evaluate(straight(0.5, 0.0, 41), straight(0.6, 0.0, 41), {0.5, 0.02}));
+      figuresOf(evaluate(straight(0.5, 0.0, 41), straight(0.6, 0.0, 41), {0.5, 1.0, 0.02}));
   EXPECT_NEAR(valueOf(figures, "rpe_translation_rmse_m"), 0.05, 1e-12);
 }
 
@@ -67,11 +67,37 @@ TEST(ReportTest, TextAndJson) {
   EXPECT_EQ(toJson(figures), "{\n  \"frames\": 240,\n  \"ate_rmse_m\": 0.0125\n}\n");
 }
 
+TEST(ReportTest, SparseTruthGivesWhatItCan) {
+  const Trajectory estimate = straight(0.6, 0.3, 41);
+  const Trajectory dense = straight(0.5, 0.2, 41);
+  Trajectory truth;  // at 1 Hz
+  for (std::size_t i = 0; i < dense.size(); i += 10) truth.push_back(dense[i]);
+  Evaluation evaluation = evaluate(truth, estimate, {});
+  EXPECT_EQ(evaluation.notice, "");
+  auto figures = figuresOf(evaluation);
+  EXPECT_NEAR(valueOf(figures, "rpe_translation_rmse_m"), 0.1, 1e-12);
+  EXPECT_EQ(valueOf(figures, "rpe_pairs"), 3.0);
+  EXPECT_NEAR(valueOf(figures, "matched"), 5.0 / 41.0, 1e-12);
+  EXPECT_GT(valueOf(figures, "ate_rmse_m"), 0.0);
+
+  evaluation = evaluate(truth, estimate, {0.7, 1.0, 0.02});
+  EXPECT_NE(evaluation.notice.find("The true poses are 1 s apart: choose --delta so"),
+            std::string::npos)
+      << evaluation.notice;
+  figures = figuresOf(evaluation);
+  EXPECT_EQ(valueOf(figures, "ate_pairs"), 5.0);
+  for (const Figure& figure : figures) EXPECT_NE(figure.name, "rpe_translation_rmse_m");
+}
+
 TEST(ReportTest, RefusesWhatCannotBeMeasured) {
   const Trajectory truth = straight(0.5, 0.0, 41);
   const Trajectory estimate = straight(0.5, 0.0, 9);
   EXPECT_NE(errorText([&] { evaluate(truth, estimate, {}); }).find("smaller delta"),
             std::string::npos);
+  EXPECT_NE(errorText([&] {
+              evaluate(truth, truth, {0.001, 1.0, 0.02});
+            }).find("larger delta"),
+            std::string::npos);  // each pose with itself: no error at all
   EXPECT_NE(errorText([&] { evaluate(truth, {}, {}); }), "nothing thrown");
   EXPECT_NE(errorText([&] { evaluate({}, truth, {}); }), "nothing thrown");
 }

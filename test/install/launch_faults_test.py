@@ -15,7 +15,7 @@ import unittest
 
 import rosbag
 import roslaunch
-from std_msgs.msg import Empty
+from sensor_msgs.msg import CameraInfo, Image
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.realpath(__file__))))
 CHECK = os.path.join(ROOT, "launch", "check_arguments")
@@ -31,14 +31,14 @@ class Case(unittest.TestCase):
         self.bag = self.path("any.bag")
         with rosbag.Bag(self.bag, "w") as bag:
             for topic in TOPICS:
-                bag.write(topic, Empty())
+                bag.write(topic, CameraInfo() if topic.endswith("info") else Image())
         self.taken = self.write("taken.txt", "poses\n")
 
     def path(self, name):
         return os.path.join(self.folder, name)
 
     def write(self, name, text):
-        with open(self.path(name), "w", encoding="utf-8") as file:
+        with open(self.path(name), "w", encoding="latin-1") as file:
             file.write(text)
         return self.path(name)
 
@@ -113,7 +113,7 @@ class LaunchFaultsTest(Case):
         methods = "'method' is 'foo', expected hybrid, mi, ssd"
         self.expect_refusal(methods, "bag.launch", "bag:=" + self.bag, "method:=foo")
         self.expect_refusal(methods, "xtion.launch", "method:=foo")
-        self.expect_refusal("'layout' is 'kinect', expected openni2, tum, rtabmap, realsense",
+        self.expect_refusal("'layout' is 'kinect', expected auto, openni2, tum, rtabmap, realsense",
                             "bag.launch", "bag:=" + self.bag, "layout:=kinect")
         self.expect_refusal("'driver' is 'freenect', expected mivo, openni2_launch", "xtion.launch",
                             "driver:=freenect")
@@ -138,14 +138,27 @@ class LaunchFaultsTest(Case):
                             "xtion.launch", "config:=" + self.folder)
 
     def test_topics_that_are_not_in_the_bag_are_told(self):
-        known = "which is not in the bag (layout:= sets all topics; the bag has %s)" % ", ".join(
-            sorted(TOPICS))
-        self.expect_refusal("'rgb_topic' is '/camera/rgb/image_color', " + known, "bag.launch",
+        line = "'bag' is '%s': the bag has no images on the topic %s; image and camera_info topics of " \
+            "the bag: " + ", ".join(sorted(TOPICS))
+        self.expect_refusal(line % (self.bag, "/camera/rgb/image_color"), "bag.launch",
                             "bag:=" + self.bag, "layout:=tum")
-        self.expect_refusal("'depth_topic' is '%s/compressedDepth', %s" % (TOPICS[2], known),
-                            "bag.launch", "bag:=any.bag", "depth_transport:=compressedDepth")
-        self.expect_refusal("'bag' is '%s', which cannot be read: " % self.taken, "bag.launch",
-                            "bag:=" + self.taken)
+        self.expect_refusal(line % ("any.bag", TOPICS[2] + "/compressedDepth"), "bag.launch",
+                            "bag:=any.bag", "layout:=openni2", "depth_transport:=compressedDepth")
+
+    def test_what_is_no_bag_is_told(self):
+        self.expect_refusal("'bag' is '%s': %s cannot be read as a bag: it is no bag" % (
+            self.taken, self.taken), "bag.launch", "bag:=" + self.taken)
+        mcap = self.write("x.mcap", "\x89MCAP0\r\n")
+        self.expect_refusal("'bag' is '%s': %s cannot be read as a bag: it is a recording of ROS 2" % (
+            mcap, mcap), "bag.launch", "bag:=" + mcap)
+        self.expect_refusal("'bag' is '%s', but there is no such file" % self.path("no.bag"),
+                            "bag.launch", "bag:=any.bag no.bag")
+        with open(self.bag, "rb") as file:
+            half = self.path("half.bag")
+            with open(half, "wb") as cut:
+                cut.write(file.read()[:-300])
+        self.expect_refusal("'bag' is '%s': %s: its index is damaged or missing" % (half, half),
+                            "bag.launch", "bag:=" + half)
 
     def test_frames_must_differ(self):
         self.expect_refusal("'base_frame' is 'odom', the frame of 'odom_frame', too", "bag.launch",

@@ -19,6 +19,14 @@ TEST(CameraFileTest, CameraComesBackExactly) {
   camera.camera.distortion = {0.1, -0.2, 1e-3, -1.0 / 7.0, 0.3};
   writeCamera(folder / "distorted.txt", camera, Overwrite::kNo);
   EXPECT_TRUE(readCamera(folder / "distorted.txt").camera == camera.camera);
+
+  camera.camera.distortion = {0.6, -2.7, 5e-4, -2e-4, 1.5, 0.5, -2.6, 1.0 / 3.0};
+  writeCamera(folder / "rational.txt", camera, Overwrite::kNo);
+  EXPECT_TRUE(readCamera(folder / "rational.txt").camera == camera.camera);
+
+  camera.camera.distortion = {0.1, 0.2, 0.0, 0.0, 0.3, 0.4, 0.0, 0.0, LensModel::kEquidistant};
+  writeCamera(folder / "fisheye.txt", camera, Overwrite::kNo);
+  EXPECT_TRUE(readCamera(folder / "fisheye.txt").camera == camera.camera);
 }
 
 TEST(CameraFileTest, ReadsTheFieldsInTheirOrder) {
@@ -32,9 +40,9 @@ TEST(CameraFileTest, ReadsTheFieldsInTheirOrder) {
 
 TEST(CameraFileTest, AByteOrderMarkIsNoText) {
   const TemporaryFolder folder;
-  for (const char* text : {"\xEF\xBB\xBF# comment\n640 480 1 2 3 4 5000\n",
+  for (const char* text : {"\xEF\xBB\xBF# comment\n640 480 500 500 320 240 5000\n",
                            "\xEF\xBB\xBF"
-                           "640 480 1 2 3 4 5000\n"}) {
+                           "640 480 500 500 320 240 5000\n"}) {
     EXPECT_EQ(readCamera(folder.write("camera.txt", text)).camera.width, 640);
   }
 }

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "io/png_file.h"
+#include "io/image_file.h"
 #include "support/error_text.h"
 #include "support/temporary_folder.h"
 
@@ -208,7 +208,7 @@ TEST_F(SequenceReaderTest, CameraOfAnotherSizeIsAnError) {
 
 TEST_F(SequenceReaderTest, UnregisteredDepthIsAnError) {
   for (int i = 0; i < 3; ++i) {
-    writePng(folder_ / ("depth/" + std::to_string(i) + ".png"), cv::Mat(3, 4, CV_16UC1),
+    writePng(folder_ / ("depth/" + std::to_string(i) + ".png"), cv::Mat(3, 5, CV_16UC1),
              Overwrite::kYes);
   }
   EXPECT_NE(openError().find("not registered"), std::string::npos);
@@ -223,7 +223,7 @@ TEST_F(SequenceReaderTest, MissingFilesAndBadListsAreErrors) {
   EXPECT_EQ(openError(), (folder_ / "rgb.txt") + " lists no image");
   folder_.write("rgb.txt", "0 rgb/0.png\nx rgb/1.png\n");
   EXPECT_EQ(openError().find((folder_ / "rgb.txt") + ":2: "), 0U);
-  folder_.write("rgb.txt", "0 rgb/0.png more\n");
+  folder_.write("rgb.txt", "0\n");
   EXPECT_EQ(openError().find((folder_ / "rgb.txt") + ":1: "), 0U);
   std::filesystem::remove(folder_ / "rgb.txt");
   EXPECT_NE(openError().find(folder_ / "rgb.txt"), std::string::npos);

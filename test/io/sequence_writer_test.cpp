@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "io/png_file.h"
+#include "io/image_file.h"
 #include "mivo/io/sequence_reader.h"
 #include "support/error_text.h"
 #include "support/temporary_folder.h"
@@ -56,7 +56,7 @@ TEST(SequenceWriterTest, DepthInMetresIsRoundedToUnits) {
   for (int i = 0; i < 6; ++i) metres.at<float>(0, i) = unusable[i];
   metres.at<float>(1, 0) = 13.107F;  // 65535 units
   writer.writeFrame(1.0, grey(0), 1.0, metres);
-  const cv::Mat stored = readPng(folder / "s/depth/1.000000.png");
+  const cv::Mat stored = readImage(folder / "s/depth/1.000000.png");
   ASSERT_EQ(stored.type(), CV_16UC1);
   for (int i = 0; i < 6; ++i) EXPECT_EQ(stored.at<unsigned short>(0, i), 0) << unusable[i];
   EXPECT_EQ(stored.at<unsigned short>(1, 0), 65535);

@@ -64,6 +64,29 @@ TEST_F(CommandLineTest, WrongUsageIsRefused) {
   EXPECT_THROW(parse({"a", "b", "--pair", "1", "x"}), UsageError);
 }
 
+TEST_F(CommandLineTest, AnUnknownOptionIsAnsweredWithTheNearestOne) {
+  const auto refusal = [&](const char* option) {
+    try {
+      parse({"a", "b", option});
+    } catch (const UsageError& error) {
+      return std::string(error.what());
+    }
+    return std::string("nothing thrown");
+  };
+  EXPECT_EQ(refusal("--nunber"), "unknown option '--nunber'; did you mean '--number'?");
+  EXPECT_EQ(refusal("--par=1"), "unknown option '--par'; did you mean '--pair'?");
+  EXPECT_EQ(refusal("--something"), "unknown option '--something'");
+  EXPECT_EQ(refusal("-x"), "unknown option '-x'");
+}
+
+TEST_F(CommandLineTest, ShortHelpIsHelp) {
+  for (const char* option : {"-h", "--help"}) {
+    testing::internal::CaptureStdout();
+    EXPECT_FALSE(parse({option})) << option;
+    EXPECT_EQ(testing::internal::GetCapturedStdout(), line_.help());
+  }
+}
+
 TEST_F(CommandLineTest, HelpNamesEverything) {
   const std::string help = line_.help();
   for (const char* text :

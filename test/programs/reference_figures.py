@@ -6,7 +6,9 @@
 
 Plain and slow on purpose: complex products of quaternions instead of matrices, minima over whole
 lists instead of searches. With the truth at the stamps of the estimate, these are also the figures of
-the published tools of the TUM RGB-D benchmark (fixed delta, no subsampling).
+the published tools of the TUM RGB-D benchmark (fixed delta, no subsampling), and those of ATE, from
+frame to frame and over metres are evo's: evo_ape --align [--correct_scale], evo_rpe --delta 1
+--delta_unit f|m --pairs_from_reference, with --pose_relation trans_part or angle_deg.
 """
 import math
 import sys
@@ -65,7 +67,8 @@ def relative_errors(truth, estimate, partner):
     return numpy.array(translations), numpy.array(angles)
 
 
-def absolute_errors(truth, estimate):
+def matched(truth, estimate):
+    """Pairs of poses that belong together, in the order of time."""
     candidates = sorted(
         (abs(q[0] - p[0]), i, j) for i, q in enumerate(truth) for j, p in enumerate(estimate)
         if abs(q[0] - p[0]) < MAX_TIME_DIFFERENCE)
@@ -73,9 +76,39 @@ def absolute_errors(truth, estimate):
     for _, i, j in candidates:
         if i not in partners.values() and j not in partners:
             partners[j] = i
-    q = numpy.array([truth[partners[j]][1] for j in sorted(partners)])
-    p = numpy.array([estimate[j][1] for j in sorted(partners)])
-    # Horn's quaternion: the largest eigenvector of a 4x4 matrix of the correlations.
+    return [(truth[partners[j]], estimate[j]) for j in sorted(partners)]
+
+
+def angle(q):
+    return math.degrees(2 * math.atan2(numpy.linalg.norm(q[:3]), abs(q[3])))
+
+
+def evo_relative_errors(pairs, ids):
+    """evo's relative pose error: (Q_i^-1 Q_j)^-1 (P_i^-1 P_j)."""
+    translations, angles = [], []
+    for i, j in ids:
+        (q_i, p_i), (q_j, p_j) = pairs[i], pairs[j]
+        error = seen_from(seen_from(q_i[1:], q_j[1:]), seen_from(p_i[1:], p_j[1:]))
+        translations.append(numpy.linalg.norm(error[0]))
+        angles.append(angle(error[1]))
+    return numpy.array(translations), numpy.array(angles)
+
+
+def path_ids(pairs, delta):
+    """evo's filter_pairs_by_path, consecutive pairs, from the reference."""
+    ids, path = [], 0.0
+    for i in range(1, len(pairs)):
+        path += numpy.linalg.norm(pairs[i][0][1] - pairs[i - 1][0][1])
+        if path >= delta:
+            ids.append(i)
+            path = 0.0
+    return list(zip(ids, ids[1:]))
+
+
+def alignment(pairs):
+    """Horn's quaternion, the largest eigenvector of a 4x4 matrix of the correlations, and scale."""
+    q = numpy.array([pair[0][1] for pair in pairs])
+    p = numpy.array([pair[1][1] for pair in pairs])
     s = (p - p.mean(0)).T @ (q - q.mean(0))
     v = numpy.array([s[1, 2] - s[2, 1], s[2, 0] - s[0, 2], s[0, 1] - s[1, 0]])
     n = numpy.zeros((4, 4))
@@ -83,8 +116,10 @@ def absolute_errors(truth, estimate):
     n[:3, 3] = n[3, :3] = v
     n[3, 3] = numpy.trace(s)
     best = numpy.linalg.eigh(n)[1][:, 3]
-    moved = numpy.array([rotate(best, x - p.mean(0)) for x in p]) + q.mean(0)
-    return numpy.linalg.norm(moved - q, axis=1)
+    turned = numpy.array([rotate(best, x - p.mean(0)) for x in p])
+    # Umeyama's scale: what of the variance of p the turned p explains of q.
+    scale = (turned * (q - q.mean(0))).sum() / ((p - p.mean(0)) ** 2).sum()
+    return best, turned + q.mean(0) - q, scale, scale * turned + q.mean(0) - q
 
 
 def rmse(values):
@@ -95,24 +130,42 @@ def main():
     truth, estimate = read(sys.argv[1]), read(sys.argv[2])
     delta = float(sys.argv[3]) if len(sys.argv) > 3 else 1.0
     t, r = relative_errors(truth, estimate, lambda i: nearest(estimate, estimate[i][0] + delta))
-    frame_t, frame_r = relative_errors(truth, estimate, lambda i: i + 1)
-    absolute = absolute_errors(truth, estimate)
+    pairs = matched(truth, estimate)
+    frame_t, frame_r = evo_relative_errors(pairs, [(i - 1, i) for i in range(1, len(pairs))])
+    path_t, path_r = evo_relative_errors(pairs, path_ids(pairs, 1.0))
+    turn, differences, scale, scaled = alignment(pairs)
+    absolute = numpy.linalg.norm(differences, axis=1)
+    turns = numpy.array([angle(multiply(conjugate(q[2]), multiply(turn, p[2]))) for q, p in pairs])
     figures = {
         "frames": len(estimate),
         "coverage": (estimate[-1][0] - estimate[0][0]) / (truth[-1][0] - truth[0][0]),
-        "rpe_translation_rmse_m": rmse(t),
-        "rpe_rotation_rmse_deg": rmse(r),
-        "rpe_translation_median_m": numpy.median(t),
-        "rpe_rotation_median_deg": numpy.median(r),
-        "rpe_translation_max_m": t.max(),
-        "rpe_rotation_max_deg": r.max(),
-        "rpe_pairs": len(t),
+        "matched": len(pairs) / len(estimate),
         "rpe_frame_translation_rmse_m": rmse(frame_t),
         "rpe_frame_rotation_rmse_deg": rmse(frame_r),
+        "rpe_path_translation_percent": 100 * path_t.mean(),
+        "rpe_path_rotation_deg_per_m": path_r.mean(),
         "ate_rmse_m": rmse(absolute),
+        "ate_mean_m": absolute.mean(),
+        "ate_median_m": numpy.median(absolute),
         "ate_max_m": absolute.max(),
-        "ate_pairs": len(absolute),
+        "ate_x_rmse_m": rmse(differences[:, 0]),
+        "ate_y_rmse_m": rmse(differences[:, 1]),
+        "ate_z_rmse_m": rmse(differences[:, 2]),
+        "ate_rotation_rmse_deg": rmse(turns),
+        "ate_scale": scale,
+        "ate_scaled_rmse_m": rmse(numpy.linalg.norm(scaled, axis=1)),
+        "ate_pairs": len(pairs),
     }
+    for name, translations, angles in (("rpe", t, r), ("rpe_path", path_t, path_r)):
+        figures.update({
+            name + "_translation_rmse_m": rmse(translations),
+            name + "_rotation_rmse_deg": rmse(angles),
+            name + "_translation_median_m": numpy.median(translations),
+            name + "_rotation_median_deg": numpy.median(angles),
+            name + "_translation_max_m": translations.max(),
+            name + "_rotation_max_deg": angles.max(),
+            name + "_pairs": len(translations),
+        })
     for name, value in figures.items():
         print("{}: {:.12g}".format(name, value))
 

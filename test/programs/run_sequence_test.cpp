@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "io/image_file.h"
 #include "mivo/core/parameters.h"
 #include "mivo/io/trajectory_io.h"
 #include "programs/plane_sequence.h"
@@ -164,6 +165,74 @@ TEST_F(RunSequenceTest, ExistingFilesAreKeptWithoutForce) {
   EXPECT_FALSE(std::filesystem::exists(output_));  // refused before anything was begun
 }
 
+TEST_F(RunSequenceTest, NoFileIsTouchedUnlessAllCanBeWritten) {
+  folder_.write("trajectory.txt", "mine");
+  const std::string missing = folder_ / "no/statistics.csv";
+  expectRefusal(track({"--force", "--statistics", missing}), 1, "cannot create " + missing);
+  expectRefusal(track({"--force", "--statistics", folder_ / "./trajectory.txt"}), 2,
+                "--output and --statistics name the same file");
+  EXPECT_EQ(contentOf(output_), "mine");
+  const std::string truth = contentOf(sequence_ + "/groundtruth.txt");
+  expectRefusal(track({"--force", "--statistics", sequence_ + "/groundtruth.txt"}), 2,
+                "--statistics names groundtruth.txt, which is read");
+  EXPECT_EQ(contentOf(sequence_ + "/groundtruth.txt"), truth);
+}
+
+TEST_F(RunSequenceTest, RepeatedColourImagesAreLeftOutAndTold) {
+  for (const int i : {4, 9}) {
+    std::filesystem::copy_file(image(i - 1), image(i),
+                               std::filesystem::copy_options::overwrite_existing);
+  }
+  const ProcessResult result = track({});
+  ASSERT_EQ(result.exit_code, 0) << result.errors;
+  EXPECT_EQ(valueOf(result.output, "tracked"), kFrames - 2);
+  EXPECT_EQ(valueOf(result.output,
+                    "skipped (the colour image repeats the one before while the depth goes on)"),
+            2);
+  EXPECT_EQ(result.errorLines(), 1U) << result.errors;
+  EXPECT_LT(largestError(), kTolerance);
+}
+
+TEST_F(RunSequenceTest, DepthThatIsStoredWrongIsNamed) {
+  const auto rewrite = [&](const auto& function) {
+    for (const auto& entry : std::filesystem::directory_iterator(sequence_ + "/depth")) {
+      cv::Mat depth = readImage(entry.path().string());
+      depth.forEach<std::uint16_t>([&](std::uint16_t& value, const int*) {
+        value = static_cast<std::uint16_t>(function(unsigned{value}));
+      });
+      writePng(entry.path().string(), depth, Overwrite::kYes);
+    }
+  };
+  const auto noteOf = [&] {
+    const ProcessResult result = track({"--force"});
+    EXPECT_EQ(result.errorLines(), 1U) << result.errors;
+    return result.errors;
+  };
+  const std::string camera = contentOf(sequence_ + "/camera.txt");
+  folder_.write("sequence/camera.txt", "160 120 140 140 79.5 59.5 5000\n");
+  EXPECT_NE(noteOf().find("median depth seen 0.3"), std::string::npos);
+  EXPECT_NE(noteOf().find("is the depth unit wrong (camera.txt: 5000 units per metre)? With 1000 "
+                          "units per metre it would be 1."),
+            std::string::npos);
+  folder_.write("sequence/camera.txt", camera);
+  rewrite([](unsigned value) { return value << 3 | value >> 13; });  // as SUN RGB-D has it
+  EXPECT_NE(
+      noteOf().find("its values are multiples of 8, as if their bits were rotated by three to "
+                    "the left (SUN RGB-D)"),
+      std::string::npos);
+  rewrite([](unsigned value) { return value >> 3 | value << 13; });
+  EXPECT_EQ(track({"--force"}).errors, "");
+  rewrite([](unsigned value) { return value >> 3 | value << 13; });
+  EXPECT_NE(noteOf().find("neighbouring values jump, unless their 16 bits are rotated by three to "
+                          "the left"),
+            std::string::npos);
+  rewrite([](unsigned value) { return ((value << 3 | value >> 13) & 0xFFFF) / 80 * 80; });
+  EXPECT_NE(noteOf().find("it comes in steps of 0.08 m: was it stored in 8 bits"),
+            std::string::npos);
+  rewrite([](unsigned) { return 0; });
+  EXPECT_NE(noteOf().find("the depth images have no reading at all"), std::string::npos);
+}
+
 TEST_F(RunSequenceTest, ShortFormsSetTheirParameters) {
   ASSERT_EQ(track({"--method", "ssd"}).exit_code, 0);
   const std::string ssd = contentOf(output_);
@@ -227,7 +296,9 @@ TEST_F(RunSequenceTest, WrongUsageIsRefusedInOneLine) {
   const struct {
     std::vector<std::string> options;
     const char* text;
-  } cases[] = {{{"--levels", "3"}, "--levels"},
+  } cases[] = {{{"--levels", "3"}, "unknown option '--levels'"},
+               {{"--stat", "x"}, "unknown option '--stat'"},
+               {{"--statistcs", "x"}, "did you mean '--statistics'?"},
                {{"more"}, "'more'"},
                {{"--method", "best"}, "ssd mi hybrid"},
                {{"--set", "levels"}, "name=value"},

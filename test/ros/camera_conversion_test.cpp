@@ -48,22 +48,52 @@ TEST(CameraConversionTest, TopicNamesSayWhetherImagesAreRectified) {
   EXPECT_FALSE(isRectifiedTopic("/camera/color/image_raw"));
 }
 
-TEST(CameraConversionTest, RationalModelWithoutItsDenominatorIsPlumbBob) {
+TEST(CameraConversionTest, EightCoefficientsAreARationalPolynomial) {
   sensor_msgs::CameraInfo info = toCameraInfo(makeCamera());
   info.distortion_model = "rational_polynomial";
   info.D.resize(8, 0.0);
-  EXPECT_EQ(makeCamera(), toCamera(info, false));
-  info.D[5] = 0.1;
-  EXPECT_ERROR(toCamera(info, false), "rectify the images");
+  EXPECT_EQ(makeCamera(), toCamera(info, false));  // a denominator of 1
+  info.D = {0.6, -2.7, 5e-4, -2e-4, 1.5, 0.5, -2.5, 1.4, 0.0, 0.0, 0.0, 0.0};
+  Camera camera = makeCamera();
+  camera.distortion = {0.6, -2.7, 5e-4, -2e-4, 1.5, 0.5, -2.5, 1.4};
+  EXPECT_EQ(camera, toCamera(info, false));
+  EXPECT_EQ(camera, toCamera(toCameraInfo(camera), false));
+  info.D[9] = 0.01;
+  EXPECT_ERROR(toCamera(info, false), "'rational_polynomial' with 12 coefficients");
+}
+
+TEST(CameraConversionTest, EquidistantLensesHaveFour) {
+  sensor_msgs::CameraInfo info = toCameraInfo(makeCamera());
+  info.distortion_model = "equidistant";
+  info.D = {0.1, -0.05, 0.01, 0.002};
+  Camera camera = makeCamera();
+  camera.distortion = {0.1, -0.05, 0.0, 0.0, 0.01, 0.002, 0.0, 0.0, LensModel::kEquidistant};
+  EXPECT_EQ(camera, toCamera(info, false));
+  EXPECT_EQ(camera, toCamera(toCameraInfo(camera), false));
+  info.D.push_back(0.3);
+  EXPECT_ERROR(toCamera(info, false), "'equidistant' with 5 coefficients");
+  EXPECT_TRUE(toCamera(info, true).distortion.isZero());
+}
+
+TEST(CameraConversionTest, ZerosArePinholesUnlessAFisheyeIsMeant) {
+  sensor_msgs::CameraInfo info = toCameraInfo(makeCamera());
+  info.D.assign(4, 0.0);
+  for (const char* model : {"", "equidistant", "thin_prism", "None", "Brown Conrady"}) {
+    info.distortion_model = model;
+    EXPECT_TRUE(toCamera(info, false).distortion.isZero()) << model;
+  }
+  info.distortion_model = "equidistant";
+  info.K[0] = info.K[4] = 305.0;  // 120 degrees
+  EXPECT_EQ(toCamera(info, false).distortion.model, LensModel::kEquidistant);
 }
 
 TEST(CameraConversionTest, OtherLensModelsAreRefusedWithTheRemedy) {
   sensor_msgs::CameraInfo info = toCameraInfo(makeCamera());
-  info.distortion_model = "equidistant";
-  EXPECT_ERROR(toCamera(info, false), "'equidistant', expected plumb_bob; rectify");
-  info.D.assign(4, 0.0);  // zeros are no pinhole in this model
-  EXPECT_ERROR(toCamera(info, false), "equidistant");
-  EXPECT_TRUE(toCamera(info, true).distortion.isZero());
+  for (const char* model : {"", "thin_prism", "ftheta"}) {
+    info.distortion_model = model;
+    EXPECT_ERROR(toCamera(info, false), "the lens model '" + std::string(model) + "', expected");
+    EXPECT_TRUE(toCamera(info, true).distortion.isZero());
+  }
 }
 
 TEST(CameraConversionTest, EmptyModelWithoutCoefficientsIsAPinhole) {
@@ -93,20 +123,59 @@ TEST(CameraConversionTest, RegionOfInterestShiftsThePrincipalPoint) {
   EXPECT_DOUBLE_EQ(205.3, camera.cy);
 }
 
+TEST(CameraConversionTest, BinnedPixelsAreTheMeanOfTheirs) {
+  sensor_msgs::CameraInfo info = toCameraInfo(makeCamera());
+  info.binning_x = info.binning_y = 1;
+  EXPECT_EQ(makeCamera(), toCamera(info, false));
+  info.binning_x = 2;
+  info.binning_y = 4;
+  info.roi.x_offset = 20;
+  info.roi.y_offset = 40;
+  info.roi.width = 600;
+  info.roi.height = 400;
+  const Camera camera = toCamera(info, false);
+  EXPECT_EQ(300, camera.width);
+  EXPECT_EQ(100, camera.height);
+  EXPECT_DOUBLE_EQ(517.3 / 2.0, camera.fx);
+  EXPECT_DOUBLE_EQ(516.5 / 4.0, camera.fy);
+  // The left edge of the region, -0.5, stays the left edge.
+  EXPECT_DOUBLE_EQ((318.6 - 20.0 + 0.5) / 2.0 - 0.5, camera.cx);
+  EXPECT_DOUBLE_EQ((255.3 - 40.0 + 0.5) / 4.0 - 0.5, camera.cy);
+  EXPECT_EQ(makeCamera().distortion, camera.distortion);
+}
+
+TEST(CameraConversionTest, WithoutASizeItIsThatOfTheImages) {
+  sensor_msgs::CameraInfo info = toCameraInfo(makeCamera());
+  info.width = info.height = 0;
+  EXPECT_EQ(makeCamera(), toCamera(info, false, {640, 480}));
+  EXPECT_ERROR(toCamera(info, false), "0 x 0 pixels");
+}
+
 TEST(CameraConversionTest, UnusableCalibrationsAreRefused) {
   EXPECT_ERROR(toCamera(sensor_msgs::CameraInfo(), false), "not calibrated");
   sensor_msgs::CameraInfo info = toCameraInfo(makeCamera());
-  info.binning_x = 2;
-  EXPECT_ERROR(toCamera(info, false), "binned");
-  info = toCameraInfo(makeCamera());
-  info.width = 0;
-  EXPECT_ERROR(toCamera(info, false), "");
-  info = toCameraInfo(makeCamera());
   info.K[2] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_ERROR(toCamera(info, false), "");
   info = toCameraInfo(makeCamera());
+  info.D[1] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_ERROR(toCamera(info, false), "finite");
+  info = toCameraInfo(makeCamera());
   info.K[1] = 0.5;
   EXPECT_ERROR(toCamera(info, false), "skew");
+  info = toCameraInfo(makeCamera());
+  info.K = {772.87, 0.0, 319.5, 0.0, 770.0, 239.5, 0.0, 6.9e-310, 2.5e-323};
+  EXPECT_ERROR(toCamera(info, false), "K has a last row that is not 0 0 1");
+}
+
+TEST(CameraConversionTest, CalibrationsThatCannotBeRightAreRefused) {
+  const auto with = [](double fx, double fy, double cx, double cy) {
+    sensor_msgs::CameraInfo info = toCameraInfo(makeCamera());
+    info.K = {fx, 0.0, cx, 0.0, fy, cy, 0.0, 0.0, 1.0};
+    info.D.assign(5, 0.0);
+    return info;
+  };
+  EXPECT_ERROR(toCamera(with(525.0, 525.0, 2000.0, -500.0), false), "lies outside of images");
+  EXPECT_ERROR(toCamera(with(5250.0, 5250.0, 319.5, 239.5), false), "span 6.9");
 }
 
 }  // namespace

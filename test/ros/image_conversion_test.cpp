@@ -104,6 +104,67 @@ TEST(ToGreyImageTest, Mono16OfBothByteOrdersGivesTheHighByte) {
   EXPECT_EQ(64, toGreyImage(message).at<std::uint8_t>(0, 0));
 }
 
+TEST(ToGreyImageTest, SixteenBitsOfColourAreThoseOfEight) {
+  const cv::Mat three = pattern(CV_8UC3);
+  cv::Mat wide;
+  three.convertTo(wide, CV_16UC3, 257.0);
+  cv::Mat alpha;
+  pattern(CV_8UC4).convertTo(alpha, CV_16UC4, 257.0);
+  EXPECT_TRUE(
+      equal(toGreyImage(makeMessage(three, "rgb8")), toGreyImage(makeMessage(wide, "rgb16"))));
+  EXPECT_TRUE(
+      equal(toGreyImage(makeMessage(three, "bgr8")), toGreyImage(makeMessage(wide, "bgr16"))));
+  EXPECT_TRUE(equal(toGreyImage(makeMessage(pattern(CV_8UC4), "bgra8")),
+                    toGreyImage(makeMessage(alpha, "bgra16"))));
+  // OpenCV's own names mean OpenCV's order.
+  EXPECT_TRUE(
+      equal(toGreyImage(makeMessage(three, "8UC3")), toGreyImage(makeMessage(three, "bgr8"))));
+  EXPECT_TRUE(equal(toGreyImage(makeMessage(pattern(CV_8UC4), "8UC4")),
+                    toGreyImage(makeMessage(pattern(CV_8UC4), "bgra8"))));
+}
+
+TEST(ToGreyImageTest, MosaicsOfSixteenBitsAreThoseOfEight) {
+  for (const std::string order : {"rggb", "bggr", "gbrg", "grbg"}) {
+    const cv::Mat mosaic = pattern(CV_8UC1);
+    cv::Mat wide;
+    mosaic.convertTo(wide, CV_16UC1, 257.0);
+    const cv::Mat expected = toGreyImage(makeMessage(mosaic, "bayer_" + order + "8"));
+    EXPECT_LE(
+        cv::norm(expected, toGreyImage(makeMessage(wide, "bayer_" + order + "16")), cv::NORM_INF),
+        1.0)
+        << order;
+  }
+}
+
+TEST(ToGreyImageTest, YuyvOfGreyKeepsItsBrightness) {
+  cv::Mat pixels(kHeight, kWidth, CV_8UC2);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      pixels.at<cv::Vec2b>(y, x) = cv::Vec2b(static_cast<std::uint8_t>(60 + 10 * x + y), 128);
+    }
+  }
+  for (const char* encoding : {"yuyv", "yuv422_yuy2"}) {
+    const cv::Mat grey = toGreyImage(makeMessage(pixels, encoding));
+    for (int x = 1; x < kWidth; ++x) {  // of "video" range: 16 to 235
+      EXPECT_NEAR(grey.at<std::uint8_t>(1, x), (61 + 10 * x - 16) * 255.0 / 219.0, 1.5) << encoding;
+    }
+  }
+}
+
+TEST(ToGreyImageTest, TwoPlanesOfGreyKeepTheirBrightness) {
+  cv::Mat planes(kHeight * 3 / 2, kWidth, CV_8UC1, cv::Scalar(128));
+  planes.rowRange(0, kHeight) = 100;
+  const cv::Mat expected(kHeight, kWidth, CV_8UC1, cv::Scalar((100 - 16) * 255.0 / 219.0));
+  for (const char* encoding : {"nv12", "nv21"}) {
+    sensor_msgs::Image message = makeMessage(planes, encoding);
+    EXPECT_LE(cv::norm(toGreyImage(message), expected, cv::NORM_INF), 1.0);
+    message.height = kHeight;  // of the image alone
+    EXPECT_LE(cv::norm(toGreyImage(message), expected, cv::NORM_INF), 1.0);
+    message.data.pop_back();
+    EXPECT_ERROR(toGreyImage(message), "holds 35 bytes");
+  }
+}
+
 TEST(ToGreyImageTest, RowsMayBePadded) {
   const cv::Mat wide = pattern(CV_8UC3);
   const cv::Mat part = wide.colRange(0, kWidth - 2);
@@ -218,6 +279,59 @@ TEST(CompressedImageTest, QuantisedInverseDepthBecomesMetres) {
   ASSERT_EQ(CV_32FC1, depth.image.type());
   EXPECT_FLOAT_EQ(1010.0F / 1005.0F, depth.image.at<float>(1, 1));
   EXPECT_TRUE(std::isnan(depth.image.at<float>(0, 0)));
+}
+
+TEST(CompressedImageTest, AMosaicInAJpegIsDemosaiced) {
+  const cv::Mat mosaic = pattern(CV_8UC1);
+  const cv::Mat expected = toGreyImage(makeMessage(mosaic, "bayer_rggb8"));
+  const cv::Mat grey = toGreyImage(compress(mosaic, ".png", "bayer_rggb8; png compressed "));
+  EXPECT_TRUE(equal(expected, grey));
+  // What was demosaiced before it was compressed is not done so again.
+  const cv::Mat colour = pattern(CV_8UC3);
+  EXPECT_TRUE(equal(toGreyImage(compress(colour, ".png", "bayer_rggb8; png compressed bgr8")),
+                    toGreyImage(makeMessage(colour, "bgr8"))));
+}
+
+TEST(CompressedImageTest, ZerosBehindTheEndDoNotMatter) {
+  for (const char* format : {".png", ".jpg"}) {
+    sensor_msgs::CompressedImage message = compress(pattern(CV_8UC3), format, "bgr8; compressed");
+    const cv::Mat expected = toGreyImage(message);
+    message.data.resize(message.data.size() + 5000);
+    EXPECT_TRUE(equal(toGreyImage(message), expected)) << format;
+  }
+}
+
+/// A message of compressedDepth in RVL, written down by hand.
+sensor_msgs::CompressedImage rvlMessage(int columns, int rows, const std::vector<int>& nibbles) {
+  sensor_msgs::CompressedImage message;
+  message.format = "16UC1; compressedDepth rvl";
+  message.data.assign(12, 0);
+  const auto append = [&](std::uint32_t word) {
+    for (int i = 0; i < 4; ++i) message.data.push_back(static_cast<std::uint8_t>(word >> 8 * i));
+  };
+  append(static_cast<std::uint32_t>(columns));
+  append(static_cast<std::uint32_t>(rows));
+  for (std::size_t i = 0; i < nibbles.size(); i += 8) {
+    std::uint32_t word = 0;
+    for (std::size_t k = 0; k < 8; ++k) {
+      word = word << 4 | static_cast<std::uint32_t>(i + k < nibbles.size() ? nibbles[i + k] : 0);
+    }
+    append(word);
+  }
+  return message;
+}
+
+TEST(CompressedImageTest, RvlIsRunsOfZerosAndDifferences) {
+  // 1 zero; 3 readings 5, 4, 20: +5, -1, +16, in zigzag 10, 1, 32; 2 zeros; 0 readings. Numbers of
+  // more than three bits have nibbles from the lowest on: 10 = 2 + 8 * 1 is 8 + 2, 1.
+  const std::vector<int> nibbles = {1, 3, 8 + 2, 1, 1, 8 + 0, 4, 2, 0};
+  const DepthImage depth = toDepthImage(rvlMessage(3, 2, nibbles));
+  const cv::Mat expected = (cv::Mat_<std::uint16_t>(2, 3) << 0, 5, 4, 20, 0, 0);
+  EXPECT_TRUE(equal(depth.image, expected));
+  EXPECT_EQ(depth.unit, 0.001);
+  EXPECT_ERROR(toDepthImage(rvlMessage(3, 2, {1, 7})), "RVL is damaged");     // too long a run
+  EXPECT_ERROR(toDepthImage(rvlMessage(30, 20, nibbles)), "RVL is damaged");  // too short
+  EXPECT_ERROR(toDepthImage(rvlMessage(-3, 2, nibbles)), "RVL is of -3 x 2 pixels");
 }
 
 TEST(CompressedImageTest, TruncatedAndForeignDataAreRefused) {

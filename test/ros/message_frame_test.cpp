@@ -35,7 +35,7 @@ ImagePair makePair(const sensor_msgs::Image& colour, const sensor_msgs::Image& d
 
 TEST(ToFrameTest, StampPixelsAndCalibrationAreThoseOfTheMessages) {
   const ImagePair pair = makePair(makeImage("mono8", 1), makeImage("16UC1", 2));
-  const MessageFrame input = toFrame(pair, false);
+  const MessageFrame input = FrameMaker(false).make(pair);
   EXPECT_EQ(12.5, input.frame.stamp);
   EXPECT_EQ(30.0, input.camera.fx);
   EXPECT_EQ(pair.colour->raw->data.data(), input.frame.image.data);  // not copied
@@ -43,12 +43,14 @@ TEST(ToFrameTest, StampPixelsAndCalibrationAreThoseOfTheMessages) {
 }
 
 TEST(ToFrameTest, WhatDoesNotFitIsRefusedWithTheReason) {
-  EXPECT_ERROR(toFrame(makePair(makeImage("mono8", 1), makeImage("16UC1", 2), 640), false), "640");
-  EXPECT_ERROR(toFrame(makePair(makeImage("16UC1", 2), makeImage("mono8", 1)), false), "16UC1");
+  EXPECT_ERROR(FrameMaker(false).make(makePair(makeImage("mono8", 1), makeImage("16UC1", 2), 640)),
+               "640");
+  EXPECT_ERROR(FrameMaker(false).make(makePair(makeImage("16UC1", 2), makeImage("mono8", 1))),
+               "16UC1");
   sensor_msgs::Image small = makeImage("16UC1", 2);
   small.height = 12;
   small.data.resize(small.step * small.height);
-  EXPECT_ERROR(toFrame(makePair(makeImage("mono8", 1), small), false), "register");
+  EXPECT_ERROR(FrameMaker(false).make(makePair(makeImage("mono8", 1), small)), "register");
 }
 
 TEST(StatusTest, CodesAreThoseOfTheMessageDefinition) {

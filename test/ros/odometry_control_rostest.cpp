@@ -240,8 +240,8 @@ TEST_F(NodeTest, ParametersOfTheNodeAreChecked) {
   setParameter("odom_frame", "odom");
   EXPECT_ERROR(readNodeParameters(handle), "must differ");
   setParameter("base_frame", "base_link");
-  setParameter("levels", "5");
-  EXPECT_ERROR(readParameters(handle), "levels' is a string, expected a whole number");
+  setParameter("levels", "five");
+  EXPECT_ERROR(readParameters(handle), "'levels': 'five' is not a whole number from");
   setParameter("levels", 5);
   setParameter("max_iteration", 5);
   setParameter("sub/group", 5);
@@ -249,6 +249,34 @@ TEST_F(NodeTest, ParametersOfTheNodeAreChecked) {
   ASSERT_EQ(1U, unknown.size());
   EXPECT_NE(std::string::npos, unknown[0].find("max_iteration'")) << unknown[0];
   EXPECT_NE(std::string::npos, unknown[0].find("'max_iterations'")) << unknown[0];
+  // Nothing is near this one.
+  setParameter("no_such_parameter", 5);
+  for (const std::string& fault : findUnknownParameters(handle, nodeParameterNames())) {
+    EXPECT_EQ(fault.find("no_such_parameter") != std::string::npos,
+              fault.find("did you mean") == std::string::npos)
+        << fault;
+  }
+}
+
+TEST_F(NodeTest, ParametersMeanWhatTheyDoInAConfigurationFile) {
+  const ros::NodeHandle handle(ns_ + "/odometry");
+  // What rosparam makes of min_cost_change: 1e-4, and of switches in quotes.
+  setParameter("min_cost_change", "1e-4");
+  setParameter("geometric_term", "off");
+  setParameter("levels", "4");
+  setParameter("drop_frames", "yes");
+  setParameter("publish_tf", 0);
+  setParameter("tf_timeout", "2e-2");
+  setParameter("queue_size", "20");
+  const Parameters parameters = readParameters(handle);
+  EXPECT_EQ("0.0001", getParameter(parameters, "min_cost_change"));
+  EXPECT_EQ("false", getParameter(parameters, "geometric_term"));
+  EXPECT_EQ("4", getParameter(parameters, "levels"));
+  const NodeParameters node = readNodeParameters(handle);
+  EXPECT_TRUE(node.drop_frames);
+  EXPECT_FALSE(node.publish_tf);
+  EXPECT_EQ(0.02, node.tf_timeout);
+  EXPECT_EQ(20, node.queue_size);
 }
 
 TEST_F(NodeTest, UnloadingWhileFramesWaitEndsCleanly) {

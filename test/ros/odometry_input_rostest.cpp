@@ -27,9 +27,13 @@ TEST_F(NodeTest, UnusableMessagesAreSkippedWithTheReason) {
   ASSERT_TRUE(waitFor([&] { return isDone(0); }));
   const sensor_msgs::CameraInfo good = calibration_;
   const std::pair<const char*, std::function<void()>> faults[] = {
-      {"equidistant", [this] { calibration_.distortion_model = "equidistant"; }},
+      {"thin_prism",
+       [this] {
+         calibration_.distortion_model = "thin_prism";
+         calibration_.D.assign(5, 0.1);
+       }},
       {"640", [this] { calibration_.width = 640; }},
-      {"'rgb16'", [this] { next_colour_.encoding = "rgb16"; }},
+      {"'hsv8'", [this] { next_colour_.encoding = "hsv8"; }},
       {"step", [this] { next_depth_.step = 3; }},
       {"not calibrated", [this] { calibration_.K.fill(0.0); }}};
   int at = 0;
@@ -177,12 +181,38 @@ TEST_F(NodeTest, AJumpBackOfTimeGoesOnAtTheLastPose) {
   load();
   for (int i = 0; i < 5; ++i) track(i, i + 60);  // two seconds later
   const int segment = statusOf(64).segment;
-  for (int i = 4; i < 9; ++i) track(i, i);  // the bag from the start again
+  // The bag from the start again, with the camera where it was: four frames are lost to the doubt.
+  for (int i = 0; i < 5; ++i) track(4, i);
+  for (int i = 5; i < 9; ++i) track(i, i);
   ASSERT_TRUE(waitFor([&] { return isDone(8); }));
+  EXPECT_EQ(TrackingStatus::REASON_STALE_STAMP, statusOf(3).reason);
+  EXPECT_EQ(segment, statusOf(3).segment);
   EXPECT_EQ(segment + 1, statusOf(4).segment);
   EXPECT_EQ(segment + 1, statusOf(8).segment);
   EXPECT_LT(poseError(4, truth(4)), kTolerance);
   EXPECT_LT(poseError(8, truth(8)), kTolerance);
+}
+
+TEST_F(NodeTest, AlternatingStampsBeginNoSegment) {
+  publishCameraOnBase();
+  load();
+  // Every second frame has the stamp of a second and a half before.
+  for (int i = 0; i < 12; ++i) track(i, i % 2 == 1 ? i + 100 - 45 : i + 100);
+  ASSERT_TRUE(waitFor([&] { return isDone(110); }));
+  EXPECT_EQ(statusOf(100).segment, statusOf(110).segment);
+  EXPECT_EQ(6U, statusOf(110).frames);
+  EXPECT_LT(poseError(110, truth(10)), kTolerance);
+}
+
+TEST_F(NodeTest, StampsThatNeverMoveBeginNoSegment) {
+  publishCameraOnBase();
+  load();
+  track(0, 50);
+  for (int i = 0; i < 15; ++i) publish(i, 50);
+  track(1, 51);
+  ASSERT_TRUE(waitFor([&] { return isDone(51); }));
+  EXPECT_EQ(statusOf(50).segment, statusOf(51).segment);
+  EXPECT_EQ(2U, statusOf(51).frames);
 }
 
 TEST_F(NodeTest, AnotherCalibrationStartsAnewAtTheLastPose) {
@@ -195,6 +225,17 @@ TEST_F(NodeTest, AnotherCalibrationStartsAnewAtTheLastPose) {
       publishUntil([&] { return statuses_.rbegin()->second.segment == segment + 1; }, 3, 4);
   ASSERT_TRUE(waitFor([&] { return isDone(at); }));
   EXPECT_LT(poseError(at, truth(3)), kTolerance);
+}
+
+TEST_F(NodeTest, ACalibrationThatChangesByRoundingStartsNothing) {
+  publishCameraOnBase();
+  load();
+  const double focal = calibration_.K[0];
+  for (int i = 0; i < 8; ++i) {
+    calibration_.K[0] = focal + 1e-9 * (i % 2);
+    track(i);
+  }
+  EXPECT_EQ(statusOf(0).segment, statusOf(7).segment);
 }
 
 TEST_F(NodeTest, ASilentTopicIsNamed) {

@@ -51,5 +51,53 @@ TEST(StampOrderTest, EqualStampsAreNoTimes) {
   EXPECT_EQ(putInOrder(items).doubled, 0U);  // a single image may have any
 }
 
+TEST(StampOrderTest, UnitsAreRecognised) {
+  const struct {
+    std::vector<double> stamps;
+    double unit;
+  } cases[] = {
+      {{}, 1.0},
+      {{0.0}, 1.0},
+      {{1.0, 2.0, 3.0}, 1.0},  // frame numbers
+      {{1305031102.1, 1305031102.2}, 1.0},
+      {{0.0, 1305031102.2}, 1.0},
+      {{1305031102175.0, 1305031102208.0}, 1e-3},
+      {{1305031102175304.0, 1305031102208637.0}, 1e-6},
+      {{0.0, 0.0, 1305031102175304064.0, 1305031102208637440.0}, 1e-9},
+      {{1600000000.0, 1600000001.0}, 1.0},
+      {{1305031102175304064.0}, 1e-9},
+      {{0.0, 33333333.0, 66666667.0}, 1e-9},
+      {{100000000000.0, 100033333333.0}, 1e-9},    // 100 s after the start
+      {{1000000000000.0, 1000033333333.0}, 1e-9},  // 1000 s: in milliseconds a time of today
+      {{86400000000.0, 86400033333.0}, 1e-6},      // a day
+      {{0.0, 33333.0, 66667.0}, 1e-6},
+      {{0.0, 33333.5, 66667.0}, 1.0},  // no whole numbers: seconds, however far apart
+  };
+  for (const auto& test : cases) {
+    EXPECT_EQ(stampUnit(test.stamps), test.unit)
+        << (test.stamps.empty() ? 0.0 : test.stamps.back());
+  }
+}
+
+TEST(StampOrderTest, StampsBecomeSeconds) {
+  std::vector<Item> items = {{2e9, 'b'}, {1e9, 'a'}};
+  const StampOrder order = putInOrder(items);
+  EXPECT_EQ(items[0].stamp, 1.0);
+  EXPECT_EQ(items[1].stamp, 2.0);
+  EXPECT_EQ(describe(order, "lines"),
+            "the stamps of the lines are nanoseconds; the lines were not in the order of their "
+            "stamps and are sorted");
+}
+
+TEST(StampOrderTest, ZeroAmongTimesOfDayIsLeftOut) {
+  std::vector<Item> items = {{0.0, 'x'}, {1.6e9, 'a'}, {0.0, 'y'}, {1.6e9 + 1, 'b'}};
+  const StampOrder order = putInOrder(items);
+  EXPECT_EQ(order.unset, 2U);
+  EXPECT_EQ(names(items), "ab");
+  EXPECT_EQ(describe(order, "lines"), "2 of the lines left out: their stamp is zero");
+  items = {{0.0, 'a'}, {0.033, 'b'}};  // a clock that began with the recording
+  EXPECT_EQ(putInOrder(items).unset, 0U);
+}
+
 }  // namespace
 }  // namespace mivo

@@ -46,6 +46,28 @@ TEST_F(TrackingSessionTest, FollowsTheCamera) {
   EXPECT_EQ(0, session_.result().segment);
 }
 
+TEST_F(TrackingSessionTest, CalibrationThatChangesByRoundingIsTheSame) {
+  for (int i = 0; i <= 5; ++i) {
+    Camera camera = planeCamera().camera;
+    camera.fx *= 1.0 + 1e-9 * i;
+    camera.cy -= 1e-9 * i;
+    camera.distortion.k1 = 1e-9 * i;
+    EXPECT_FALSE(session_.setCamera(camera));
+    track(i);
+  }
+  EXPECT_EQ(0, session_.result().segment);
+  EXPECT_EQ(TrackingState::kTracking, session_.result().state);
+}
+
+TEST_F(TrackingSessionTest, TrueChangeOfTheCalibrationKeepsThePose) {
+  for (int i = 0; i <= 5; ++i) track(i);
+  Camera camera = planeCamera().camera;
+  camera.fx *= 1.001;
+  EXPECT_TRUE(session_.setCamera(camera));
+  EXPECT_LT(distance(planePose(5), track(5).T_odom_camera), kTolerance);
+  EXPECT_EQ(1, session_.result().segment);
+}
+
 TEST_F(TrackingSessionTest, RestartKeepsThePoseThoughStampsBeginAnew) {
   for (int i = 0; i <= 5; ++i) track(i);
   session_.restart();

@@ -6,19 +6,39 @@
 
 namespace mivo {
 
-/// Lens distortion in OpenCV's order of "plumb_bob": radial k1, k2, k3 and tangential p1, p2,
-/// acting on normalised coordinates. It does not change with the pyramid level.
+/// How a ray's angle becomes a distance from the principal point.
+enum class LensModel {
+  /// OpenCV's and ROS' "plumb_bob" and "rational_polynomial", of the normalised radius r: r (1 +
+  /// k1 r^2 + k2 r^4 + k3 r^6) / (1 + k4 r^2 + k5 r^4 + k6 r^6), and tangential p1, p2.
+  kPolynomial,
+  /// ROS' "equidistant", OpenCV's fisheye, of the angle a to the optical axis: a (1 + k1 a^2 +
+  /// k2 a^4 + k3 a^6 + k4 a^8). The others are zero.
+  kEquidistant
+};
+
+/// Lens distortion, in OpenCV's order, acting on normalised coordinates. It does not change with
+/// the pyramid level.
 struct Distortion {
   double k1 = 0.0;
   double k2 = 0.0;
   double p1 = 0.0;
   double p2 = 0.0;
   double k3 = 0.0;
+  double k4 = 0.0;
+  double k5 = 0.0;
+  double k6 = 0.0;
+  LensModel model = LensModel::kPolynomial;
 
+  /// A pinhole: a polynomial of zeros. An equidistant lens is never one.
   bool isZero() const;
+  /// A polynomial with a denominator.
+  bool isRational() const;
+
+  friend bool operator==(const Distortion& a, const Distortion& b);
+  friend bool operator!=(const Distortion& a, const Distortion& b) { return !(a == b); }
 };
 
-/// How far from the optical axis a lens' polynomial can be used: within, each pixel has one ray.
+/// How far from the optical axis a lens can be used: within, each pixel has one ray.
 /// Radii in normalised coordinates; both infinite for a lens without distortion.
 struct LensRange {
   double undistorted;  ///< of rays
@@ -36,8 +56,9 @@ struct Camera {
   double cy = 0.0;
   Distortion distortion;
 
-  /// Throws Error when a size or focal length is not positive, a number is not finite, or the
-  /// lens' polynomial folds back in the inner half of the image.
+  /// Throws Error when a size or focal length is not positive, a number is not finite, the image
+  /// would span less than 10 or more than 170 degrees, the principal point lies outside of it, or
+  /// the lens' polynomial folds back in its inner half.
   void validate() const;
 
   /// The camera of pyramid level `level` (0: this one). Levels are reduced by a Gaussian that keeps

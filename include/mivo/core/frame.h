@@ -22,10 +22,11 @@ struct Frame {
 /// Order of the channels of a colour image.
 enum class ChannelOrder { kRgb, kBgr };
 
-/// Grey image of a CV_8U image with 1, 3 or 4 channels, or of a CV_16UC1 image (its high bytes).
-/// A grey 8-bit image is returned without a copy. Throws Error for any other type. Every input of
-/// mivo goes through this function, so that folder, bag and camera give the same bits.
-cv::Mat toGrey(const cv::Mat& image, ChannelOrder order);
+/// Grey image of a CV_8U or CV_16U image with 1, 3 or 4 channels; of 16 bits, the 8 highest of the
+/// `bits` that are used (see GreyRange for a stream of them). A grey 8-bit image is returned
+/// without a copy. Throws Error for any other type. Every input of mivo goes through this function,
+/// so that folder, bag and camera give the same bits.
+cv::Mat toGrey(const cv::Mat& image, ChannelOrder order, int bits = 16);
 
 /// What is wrong with a frame for this camera, as one line, or an empty text when it can be used.
 std::string findFault(const Frame& frame, const Camera& camera);

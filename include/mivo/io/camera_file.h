@@ -15,8 +15,9 @@ struct SequenceCamera {
   double depth_units_per_metre = 1000.0;
 };
 
-/// Reads `#` comments and one line `width height fx fy cx cy depth_units_per_metre [k1 k2 p1 p2
-/// k3]`. Throws Error naming file and line.
+/// Reads `#` comments and one line `width height fx fy cx cy depth_units_per_metre` with
+/// `[k1 k2 p1 p2 k3 [k4 k5 k6]]` or `[equidistant k1 k2 k3 k4]` behind it, see Distortion. Throws
+/// Error naming file and line.
 SequenceCamera readCamera(const std::string& path);
 
 /// Throws Error when the file exists and may not be replaced, or cannot be written.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <string>
 
 #include "mivo/core/camera.h"
@@ -20,6 +21,7 @@ class FrameSource {
  public:
   virtual ~FrameSource() = default;
 
+  /// Camera of the frame that was read last, of the first one before that.
   virtual const Camera& camera() const = 0;
 
   /// Number of frames, skipped ones included, for progress bars.
@@ -37,6 +39,16 @@ class FrameSource {
   /// Reads the next frame. kSkipped: this frame is broken, `fault` says what and where; reading
   /// goes on with the next call. Throws Error only when nothing further can be read.
   virtual Status next(Frame& frame, FrameFault& fault) = 0;
+
+  /// Whether time was set back before the frame that was read last: its stamp cannot be compared
+  /// with those before.
+  virtual bool startsAnew() const { return false; }
+
+  /// How many images became no frame at all, by the reason: without a partner, of no time.
+  virtual const std::map<std::string, std::size_t>& leftOut() const {
+    static const std::map<std::string, std::size_t> none;
+    return none;
+  }
 };
 
 }  // namespace mivo

@@ -2,8 +2,8 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 #include <string>
-#include <vector>
 
 #include "mivo/io/camera_file.h"
 #include "mivo/io/frame_range.h"
@@ -13,25 +13,29 @@ namespace mivo {
 
 /// A recording as a folder in the layout of the TUM RGB-D benchmark:
 ///
-///   rgb.txt, depth.txt   lines `stamp path`, paths relative to the folder, PNG images; depth in 16
-///                        bits, registered to the colour camera, 0 where there is no reading
+///   rgb.txt, depth.txt   lines `stamp path`, paths relative to the folder, PNG, JPEG or PGM; depth
+///                        in 16 bits, registered to the colour camera, 0 where there is no reading
 ///   associations.txt     optional: lines `stamp_rgb path stamp_depth path`. Without it each colour
 ///                        image gets the depth image nearest in time, 20 ms away at most
-///   camera.txt           see readCamera; may be missing when tumCamera knows the folder's name
+///   camera.txt           see readCamera; may be missing when the folder's name or another of its
+///                        files tells the camera
+///
+/// or as ICL-NUIM, Bonn, ETH3D-SLAM, 7-Scenes, ScanNet and SUN3D have it, see doc/file_formats.md.
 ///
 /// The stamp of a frame is that of its colour image. The frames come in the order of their stamps,
-/// whatever the order of the lines; of lines with the same stamp the first counts. Either is told
-/// by notice().
+/// whatever the order of the lines; of lines with the same stamp the first counts. Colour that is
+/// larger than depth by a whole factor is reduced to it. All this is told by notice().
 class SequenceReader : public FrameSource {
  public:
   /// Opens the folder and looks at the first images. Throws Error when the folder or one of its
-  /// files is missing or malformed, all stamps of a file are the same, the range has no frame, no
-  /// frame can be read, or the images of the first one that can be read do not fit the camera or
-  /// each other.
+  /// files is missing or malformed, the camera cannot be right, all stamps of a file are the same,
+  /// the range has no frame, no frame can be read, or the images of the first one that can be read
+  /// do not fit the camera or each other.
   explicit SequenceReader(const std::string& folder, const FrameRange& range = {});
+  ~SequenceReader() override;
 
   const Camera& camera() const override { return camera_.camera; }
-  std::size_t size() const override { return entries_.size(); }
+  std::size_t size() const override { return count_; }
 
   /// The depth is handed on as it is stored, with Frame::depth_unit. A frame is skipped when one of
   /// its images is missing, damaged, of the wrong type or of the wrong size.
@@ -43,23 +47,13 @@ class SequenceReader : public FrameSource {
   const std::string& notice() const override { return notice_; }
 
  private:
-  struct Entry {
-    double stamp;
-    std::string image_path;
-    std::string depth_path;
-  };
-
-  void readCameraOf(const std::string& folder);
-  void readEntries(const std::string& folder);
-  void pairEntries(const std::string& folder);
-  void probe() const;
-  Frame read(const Entry& entry) const;
-  std::string sizeFault(const Frame& frame, const Entry& entry) const;
+  class Images;  // read, decoded, brought to one size
 
   SequenceCamera camera_;
   std::string camera_file_;  // where the camera comes from
   std::string notice_;
-  std::vector<Entry> entries_;
+  std::unique_ptr<Images> images_;
+  std::size_t count_ = 0;
   std::size_t next_ = 0;
 };
 

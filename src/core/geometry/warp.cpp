@@ -6,6 +6,15 @@
 #include "core/images/pixel_access.h"
 
 namespace mivo {
+namespace {
+
+kernels::Lens lensOf(const Distortion& distortion) {
+  if (distortion.model == LensModel::kEquidistant) return kernels::Lens::kEquidistant;
+  if (distortion.isRational()) return kernels::Lens::kRational;
+  return distortion.isZero() ? kernels::Lens::kNone : kernels::Lens::kPlumbBob;
+}
+
+}  // namespace
 
 Warp::Warp(const Camera& camera, const RowMotion& rows, int threads)
     : camera_(camera),
@@ -30,12 +39,15 @@ kernels::WarpParameters Warp::parameters(const Eigen::Isometry3d& T_live_ref) co
   p.fy = static_cast<float>(camera_.fy);
   p.cx = static_cast<float>(camera_.cx);
   p.cy = static_cast<float>(camera_.cy);
-  p.is_distorted = !camera_.distortion.isZero();
+  p.lens = lensOf(camera_.distortion);
   p.k1 = static_cast<float>(camera_.distortion.k1);
   p.k2 = static_cast<float>(camera_.distortion.k2);
   p.p1 = static_cast<float>(camera_.distortion.p1);
   p.p2 = static_cast<float>(camera_.distortion.p2);
   p.k3 = static_cast<float>(camera_.distortion.k3);
+  p.k4 = static_cast<float>(camera_.distortion.k4);
+  p.k5 = static_cast<float>(camera_.distortion.k5);
+  p.k6 = static_cast<float>(camera_.distortion.k6);
   p.max_squared_radius = max_radius_ * max_radius_;
   p.right = static_cast<float>(camera_.width - 1);
   p.bottom = static_cast<float>(camera_.height - 1);

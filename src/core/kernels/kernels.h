@@ -24,6 +24,10 @@ struct PointsView {
   const float* z;
 };
 
+/// What a lens does to normalised coordinates, see Distortion. The first has no coefficients, the
+/// second no k4 to k6.
+enum class Lens { kNone, kPlumbBob, kRational, kEquidistant };
+
 /// Motion of the points and projection into a level. A point X goes to q = R X + t; if rows are
 /// read one after the other, to q' = q + tau (angular x q + linear) with the time
 /// tau = v row_duration + first_row of the row v that q projects to; and then through the lens.
@@ -36,8 +40,8 @@ struct WarpParameters {
   float row_duration;  ///< frame periods from one row of the level to the next
   float first_row;     ///< frame periods from the time of the pose to that of row 0
   float fx, fy, cx, cy;
-  bool is_distorted;
-  float k1, k2, p1, p2, k3;
+  Lens lens;
+  float k1, k2, p1, p2, k3, k4, k5, k6;
   float max_squared_radius;  ///< of undistorted normalised coordinates
   float right, bottom;       ///< visible: 0 <= u < right, 0 <= v < bottom
 };

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A pixel of a keyframe turned into a point with derivatives: included once for floats and once for
 // the vectors of each instruction set, and therefore without include guards. Before it
-// MIVO_FORMULAS names a namespace that has a type Number with + - * / and constant(float), and
-// MIVO_INLINE says how to inline.
+// MIVO_FORMULAS names a namespace that has a type Number with + - * /, constant(float),
+// squareRoot(), arcTangent() and tangent(), and MIVO_INLINE says how to inline.
 
 namespace mivo {
 namespace kernels {
@@ -27,16 +27,73 @@ struct Distorted {
   Matrix2 derivative;
 };
 
-MIVO_INLINE Distorted distorted(const WarpParameters& p, Number x, Number y) {
+/// A lens without its tangential part: a point is multiplied by `scale`, whose derivative with
+/// respect to the point is `slope` times the point.
+struct Radial {
+  Number scale, slope;
+};
+
+MIVO_INLINE Radial plumbBob(const WarpParameters& p, Number r2) {
   const Number k1 = constant(p.k1);
   const Number k2 = constant(p.k2);
   const Number k3 = constant(p.k3);
+  const Number two = constant(2.0F);
+  return {constant(1.0F) + r2 * (k1 + r2 * (k2 + r2 * k3)),
+          two * (k1 + r2 * (two * k2 + r2 * constant(3.0F) * k3))};
+}
+
+MIVO_INLINE Radial rational(const WarpParameters& p, Number r2) {
+  const Number k4 = constant(p.k4);
+  const Number k5 = constant(p.k5);
+  const Number k6 = constant(p.k6);
+  const Number two = constant(2.0F);
+  const Radial over = plumbBob(p, r2);
+  const Number under = constant(1.0F) + r2 * (k4 + r2 * (k5 + r2 * k6));
+  const Number under_slope = two * (k4 + r2 * (two * k5 + r2 * constant(3.0F) * k6));
+  const Number scale = over.scale / under;
+  return {scale, (over.slope - scale * under_slope) / under};
+}
+
+/// Of an angle to the optical axis: distorted radius over the angle, and its derivative.
+struct Angular {
+  Number scale, slope;
+};
+
+MIVO_INLINE Angular equidistantAngle(const WarpParameters& p, Number angle) {
+  const Number k1 = constant(p.k1);
+  const Number k2 = constant(p.k2);
+  const Number k3 = constant(p.k3);
+  const Number k4 = constant(p.k4);
+  const Number a2 = angle * angle;
+  return {constant(1.0F) + a2 * (k1 + a2 * (k2 + a2 * (k3 + a2 * k4))),
+          constant(1.0F) + a2 * (constant(3.0F) * k1 +
+                                 a2 * (constant(5.0F) * k2 +
+                                       a2 * (constant(7.0F) * k3 + a2 * constant(9.0F) * k4)))};
+}
+
+MIVO_INLINE Radial equidistant(const WarpParameters& p, Number r2) {
+  // On the axis, where all is 0 / 0, and too small to matter elsewhere.
+  const Number square = r2 + constant(1e-12F);
+  const Number r = squareRoot(square);
+  const Number angle = arcTangent(r);
+  const Angular lens = equidistantAngle(p, angle);
+  const Number scale = angle * lens.scale / r;
+  return {scale, (lens.slope / (constant(1.0F) + square) - scale) / square};
+}
+
+MIVO_INLINE Radial radialOf(const WarpParameters& p, Number r2) {
+  if (p.lens == Lens::kEquidistant) return equidistant(p, r2);
+  return p.lens == Lens::kRational ? rational(p, r2) : plumbBob(p, r2);
+}
+
+MIVO_INLINE Distorted distorted(const WarpParameters& p, Number x, Number y) {
   const Number p1 = constant(p.p1);
   const Number p2 = constant(p.p2);
   const Number two = constant(2.0F);
   const Number r2 = x * x + y * y;
-  const Number radial = constant(1.0F) + r2 * (k1 + r2 * (k2 + r2 * k3));
-  const Number slope = two * (k1 + r2 * (two * k2 + r2 * constant(3.0F) * k3));
+  const Radial lens = radialOf(p, r2);
+  const Number radial = lens.scale;
+  const Number slope = lens.slope;
   const Number mixed = slope * x * y + two * (p1 * x + p2 * y);
   return {x * radial + two * p1 * x * y + p2 * (r2 + two * x * x),
           y * radial + p1 * (r2 + two * y * y) + two * p2 * x * y,
@@ -50,17 +107,34 @@ struct Ray {
   Matrix2 scale;
 };
 
+// Newton's method doubles the number of digits with each step.
+constexpr int kInversionSteps = 6;
+
+/// Undistorted over distorted radius, of an equidistant lens.
+MIVO_INLINE Number equidistantInverse(const WarpParameters& p, Number r2) {
+  const Number wanted = squareRoot(r2 + constant(1e-12F));
+  Number angle = wanted;
+  for (int i = 0; i < kInversionSteps; ++i) {
+    const Angular lens = equidistantAngle(p, angle);
+    angle = angle - (angle * lens.scale - wanted) / lens.slope;
+  }
+  return tangent(angle) / wanted;
+}
+
 MIVO_INLINE Ray rayOf(const WarpParameters& p, Number u, Number v) {
-  // Newton's method doubles the number of digits with each step.
-  constexpr int kSteps = 6;
   const Number fx = constant(p.fx);
   const Number fy = constant(p.fy);
   const Number zero = constant(0.0F);
   Ray ray = {(u - constant(p.cx)) / fx, (v - constant(p.cy)) / fy, {fx, zero, zero, fy}};
-  if (!p.is_distorted) return ray;
+  if (p.lens == Lens::kNone) return ray;
   const Number wanted_x = ray.x;
   const Number wanted_y = ray.y;
-  for (int i = 0; i < kSteps; ++i) {
+  if (p.lens == Lens::kEquidistant) {
+    const Number inverse = equidistantInverse(p, wanted_x * wanted_x + wanted_y * wanted_y);
+    ray.x = wanted_x * inverse;
+    ray.y = wanted_y * inverse;
+  }
+  for (int i = 0; p.lens != Lens::kEquidistant && i < kInversionSteps; ++i) {
     const Distorted here = distorted(p, ray.x, ray.y);
     const Matrix2& D = here.derivative;
     const Number inverse = constant(1.0F) / (D.a * D.d - D.b * D.c);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+
 #include "core/kernels/scalar.h"
 
 namespace mivo {
@@ -9,6 +11,15 @@ using Number = float;
 
 inline Number constant(float value) {
   return value;
+}
+inline Number squareRoot(Number x) {
+  return std::sqrt(x);
+}
+inline Number arcTangent(Number x) {
+  return std::atan(x);
+}
+inline Number tangent(Number x) {
+  return std::tan(x);
 }
 
 }  // namespace reference

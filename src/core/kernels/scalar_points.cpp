@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <cmath>
+
 #include "core/kernels/scalar.h"
 
 namespace mivo {
@@ -12,14 +14,26 @@ struct Pixel2 {
   bool is_valid;
 };
 
+/// What a point is multiplied by.
+float radialScale(const WarpParameters& p, float r2) {
+  if (p.lens == Lens::kEquidistant) {
+    const float r = std::sqrt(r2 + 1e-12F);
+    const float angle = std::atan(r);
+    const float a2 = angle * angle;
+    return angle * (1.0F + a2 * (p.k1 + a2 * (p.k2 + a2 * (p.k3 + a2 * p.k4)))) / r;
+  }
+  const float over = 1.0F + r2 * (p.k1 + r2 * (p.k2 + r2 * p.k3));
+  return p.lens == Lens::kRational ? over / (1.0F + r2 * (p.k4 + r2 * (p.k5 + r2 * p.k6))) : over;
+}
+
 Pixel2 projectPoint(const WarpParameters& p, const float (&q)[3]) {
   const float inverse = 1.0F / q[2];
   float x = q[0] * inverse;
   float y = q[1] * inverse;
   bool is_valid = q[2] > 0.0F;
-  if (p.is_distorted) {
+  if (p.lens != Lens::kNone) {
     const float r2 = x * x + y * y;
-    const float radial = 1.0F + r2 * (p.k1 + r2 * (p.k2 + r2 * p.k3));
+    const float radial = radialScale(p, r2);
     const float xy2 = 2.0F * x * y;
     is_valid = is_valid && r2 <= p.max_squared_radius;
     const float distorted = x * radial + p.p1 * xy2 + p.p2 * (r2 + 2.0F * x * x);

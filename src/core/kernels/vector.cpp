@@ -20,7 +20,7 @@
 #define HWY_TARGET_INCLUDE "core/kernels/vector.cpp"
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
-// Highway's logarithms.
+// Highway's logarithms and angles.
 #include <hwy/contrib/math/math-inl.h>
 
 // The fallback without vectors is our own reference.

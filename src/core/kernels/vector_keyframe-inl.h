@@ -26,6 +26,15 @@ HWY_INLINE Number operator/(Number a, Number b) {
 HWY_INLINE Number constant(float value) {
   return {all(value)};
 }
+HWY_INLINE Number squareRoot(Number x) {
+  return {hn::Sqrt(x.v)};
+}
+HWY_INLINE Number arcTangent(Number x) {
+  return {hn::Atan(Floats(), x.v)};
+}
+HWY_INLINE Number tangent(Number x) {
+  return {hn::Div(hn::Sin(Floats(), x.v), hn::Cos(Floats(), x.v))};
+}
 
 }  // namespace HWY_NAMESPACE
 }  // namespace kernels

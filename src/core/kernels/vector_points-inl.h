@@ -62,18 +62,38 @@ struct VectorPixel {
   FloatMask is_valid;
 };
 
-template <bool kIsDistorted>
+/// What a point is multiplied by.
+template <Lens kLens>
+HWY_INLINE FloatVector radialScale(const WarpParameters& p, FloatVector r2) {
+  if (kLens == Lens::kEquidistant) {
+    const FloatVector r = hn::Sqrt(hn::Add(r2, all(1e-12F)));
+    const FloatVector angle = hn::Atan(Floats(), r);
+    const FloatVector a2 = hn::Mul(angle, angle);
+    const FloatVector series = hn::MulAdd(
+        a2,
+        hn::MulAdd(a2, hn::MulAdd(a2, hn::MulAdd(a2, all(p.k4), all(p.k3)), all(p.k2)), all(p.k1)),
+        all(1.0F));
+    return hn::Div(hn::Mul(angle, series), r);
+  }
+  const FloatVector over =
+      hn::MulAdd(r2, hn::MulAdd(r2, hn::MulAdd(r2, all(p.k3), all(p.k2)), all(p.k1)), all(1.0F));
+  if (kLens == Lens::kPlumbBob) return over;
+  const FloatVector under =
+      hn::MulAdd(r2, hn::MulAdd(r2, hn::MulAdd(r2, all(p.k6), all(p.k5)), all(p.k4)), all(1.0F));
+  return hn::Div(over, under);
+}
+
+template <Lens kLens>
 HWY_INLINE VectorPixel project(const WarpParameters& p, const VectorPoint& q) {
   const FloatVector inverse = hn::Div(all(1.0F), q.z);
   FloatVector x = hn::Mul(q.x, inverse);
   FloatVector y = hn::Mul(q.y, inverse);
   FloatMask is_valid = hn::Gt(q.z, all(0.0F));
-  if (kIsDistorted) {
+  if (kLens != Lens::kNone) {
     const FloatVector xx = hn::Mul(x, x);
     const FloatVector yy = hn::Mul(y, y);
     const FloatVector r2 = hn::Add(xx, yy);
-    const FloatVector radial =
-        hn::MulAdd(r2, hn::MulAdd(r2, hn::MulAdd(r2, all(p.k3), all(p.k2)), all(p.k1)), all(1.0F));
+    const FloatVector radial = radialScale<kLens>(p, r2);
     const FloatVector xy2 = hn::Mul(hn::Add(x, x), y);
     is_valid = hn::And(is_valid, hn::Le(r2, all(p.max_squared_radius)));
     const FloatVector tangential_x =
@@ -86,15 +106,15 @@ HWY_INLINE VectorPixel project(const WarpParameters& p, const VectorPoint& q) {
   return {hn::MulAdd(all(p.fx), x, all(p.cx)), hn::MulAdd(all(p.fy), y, all(p.cy)), is_valid};
 }
 
-template <bool kIsDistorted>
+template <Lens kLens>
 HWY_INLINE std::size_t warpVectors(const WarpParameters& p, const PointsView& points, std::size_t n,
                                    float* u, float* v, float* visible) {
   const Floats d;
   std::size_t count = 0;
   for (std::size_t i = 0; i < n; i += hn::Lanes(d)) {
     const VectorPoint q = moved(p.rotation, p.translation, load(points, i));
-    VectorPixel pixel = project<kIsDistorted>(p, q);
-    if (p.has_row_motion) pixel = project<kIsDistorted>(p, sum(q, rowShift(p, q, pixel.v)));
+    VectorPixel pixel = project<kLens>(p, q);
+    if (p.has_row_motion) pixel = project<kLens>(p, sum(q, rowShift(p, q, pixel.v)));
     // Comparisons with NaN are false: it is outside.
     const FloatMask right_of = hn::And(hn::Ge(pixel.u, all(0.0F)), hn::Ge(pixel.v, all(0.0F)));
     const FloatMask left_of =
@@ -111,8 +131,21 @@ HWY_INLINE std::size_t warpVectors(const WarpParameters& p, const PointsView& po
 inline std::size_t warpPoints(const WarpParameters& p, const PointsView& points, std::size_t n,
                               float* u, float* v, float* visible) {
   const std::size_t whole = wholeVectors(n);
-  std::size_t count = p.is_distorted ? warpVectors<true>(p, points, whole, u, v, visible)
-                                     : warpVectors<false>(p, points, whole, u, v, visible);
+  std::size_t count = 0;
+  switch (p.lens) {
+    case Lens::kNone:
+      count = warpVectors<Lens::kNone>(p, points, whole, u, v, visible);
+      break;
+    case Lens::kPlumbBob:
+      count = warpVectors<Lens::kPlumbBob>(p, points, whole, u, v, visible);
+      break;
+    case Lens::kRational:
+      count = warpVectors<Lens::kRational>(p, points, whole, u, v, visible);
+      break;
+    case Lens::kEquidistant:
+      count = warpVectors<Lens::kEquidistant>(p, points, whole, u, v, visible);
+      break;
+  }
   count += reference::warpPoints(p, {points.x + whole, points.y + whole, points.z + whole},
                                  n - whole, u + whole, v + whole, visible + whole);
   return count;

@@ -28,7 +28,7 @@ constexpr int kHeight = 45;
 
 /// A camera with images of this size that moves while it reads its rows, and has moved from the
 /// keyframe's.
-inline kernels::WarpParameters warpParameters(bool is_distorted, bool has_row_motion) {
+inline kernels::WarpParameters warpParameters(kernels::Lens lens, bool has_row_motion) {
   kernels::WarpParameters p{};
   const float rotation[9] = {0.9987F,  -0.0399F, 0.0298F, 0.0404F, 0.9990F,
                              -0.0186F, -0.0290F, 0.0198F, 0.9994F};
@@ -49,17 +49,25 @@ inline kernels::WarpParameters warpParameters(bool is_distorted, bool has_row_mo
   p.fy = 56.0F;
   p.cx = 33.2F;
   p.cy = 21.7F;
-  p.is_distorted = is_distorted;
+  p.lens = lens;
   p.k1 = 0.2F;
   p.k2 = -0.3F;
-  p.p1 = 0.001F;
-  p.p2 = -0.002F;
   p.k3 = 0.1F;
+  p.k4 = lens == kernels::Lens::kEquidistant ? -0.02F : 0.3F;
+  p.k5 = -0.1F;
+  p.k6 = 0.05F;
+  if (lens != kernels::Lens::kEquidistant) {
+    p.p1 = 0.001F;
+    p.p2 = -0.002F;
+  }
   p.max_squared_radius = 0.8F;
   p.right = kWidth - 1;
   p.bottom = kHeight - 1;
   return p;
 }
+
+constexpr kernels::Lens kLenses[] = {kernels::Lens::kNone, kernels::Lens::kPlumbBob,
+                                     kernels::Lens::kRational, kernels::Lens::kEquidistant};
 
 /// 0 to 3 vectors of the widest instruction set, one by one, and around a tile and a sum.
 inline std::vector<std::size_t> awkwardLengths() {

@@ -12,18 +12,29 @@ using testing::Numbers;
 constexpr float kUnset = -777.0F;
 
 /// Pixels of a whole image, and the lens of a real camera.
-kernels::WarpParameters cameraOf(bool is_distorted, bool has_row_motion) {
-  kernels::WarpParameters p = testing::warpParameters(is_distorted, has_row_motion);
+kernels::WarpParameters cameraOf(kernels::Lens lens, bool has_row_motion) {
+  kernels::WarpParameters p = testing::warpParameters(lens, has_row_motion);
   p.row_duration = 1.0F / 480.0F;
   p.fx = 525.0F;
   p.fy = 520.0F;
   p.cx = 319.5F;
   p.cy = 239.5F;
+  if (lens == kernels::Lens::kEquidistant) {  // 120 degrees from corner to corner
+    p.fx = p.fy = 260.0F;
+    p.k1 = 0.05F;
+    p.k2 = -0.02F;
+    p.k3 = 0.01F;
+    p.k4 = -0.002F;
+    return p;
+  }
   p.k1 = 0.26F;
   p.k2 = -0.95F;
   p.p1 = -0.005F;
   p.p2 = 0.003F;
   p.k3 = 1.16F;
+  p.k4 = 0.1F;
+  p.k5 = -0.2F;
+  p.k6 = 0.3F;
   return p;
 }
 
@@ -91,10 +102,10 @@ void expectAgreement(const Output& actual, const Output& expected, std::size_t n
 }
 
 TEST(VectorKeyframeTest, PointsAgreeWithTheReference) {
-  for (const bool is_distorted : {false, true}) {
+  for (const kernels::Lens lens : testing::kLenses) {
     for (const bool has_row_motion : {false, true}) {
       for (const bool with_second_derivative : {false, true}) {
-        const kernels::WarpParameters camera = cameraOf(is_distorted, has_row_motion);
+        const kernels::WarpParameters camera = cameraOf(lens, has_row_motion);
         forEachCase([&](const Kernels& kernels, std::size_t n, std::size_t offset) {
           const Input input(n, offset);
           Output expected(n, offset);

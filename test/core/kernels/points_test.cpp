@@ -45,9 +45,9 @@ bool isNear(float value, float border) {
 }
 
 TEST(VectorWarpTest, AgreesWithTheReference) {
-  for (const bool is_distorted : {false, true}) {
+  for (const kernels::Lens lens : testing::kLenses) {
     for (const bool has_row_motion : {false, true}) {
-      const WarpParameters p = warpParameters(is_distorted, has_row_motion);
+      const WarpParameters p = warpParameters(lens, has_row_motion);
       forEachCase([&](const Kernels& kernels, std::size_t n, std::size_t offset) {
         const Points points = awkwardPoints(n, offset);
         Pixels expected(n, offset);
@@ -80,7 +80,7 @@ TEST(VectorWarpTest, AgreesWithTheReference) {
 }
 
 TEST(VectorWarpTest, ExactBordersAreInsideOnTheLeftAndOutsideOnTheRight) {
-  WarpParameters p = warpParameters(false, false);
+  WarpParameters p = warpParameters(kernels::Lens::kNone, false);
   const float identity[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
   std::copy(identity, identity + 9, p.rotation);
   std::fill(p.translation, p.translation + 3, 0.0F);

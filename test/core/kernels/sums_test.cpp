@@ -194,7 +194,8 @@ TEST(VectorGeometryTest, AgreesWithTheReference) {
     for (const bool is_metric : {false, true}) {
       const kernels::DepthView depth{is_metric ? metres.data() : nullptr,
                                      is_metric ? nullptr : steps.data(), kWidth, 0.0002F};
-      const kernels::WarpParameters live = testing::warpParameters(false, has_row_motion);
+      const kernels::WarpParameters live =
+          testing::warpParameters(kernels::Lens::kNone, has_row_motion);
       kernels::Motion back{};
       for (int r = 0; r < 3; ++r) {
         for (int c = 0; c < 3; ++c) back.rotation[3 * r + c] = live.rotation[3 * c + r];

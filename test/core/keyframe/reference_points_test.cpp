@@ -23,6 +23,26 @@ Camera lensCamera() {
   return camera;
 }
 
+/// Eight coefficients, as an Azure Kinect's: large ones that nearly cancel each other.
+Camera rationalCamera() {
+  Camera camera = analyticCamera();
+  camera.distortion = {0.62, -2.74, 0.0005, -0.0002, 1.54, 0.49, -2.55, 1.46};
+  return camera;
+}
+
+/// 120 degrees wide.
+Camera equidistantCamera() {
+  Camera camera = analyticCamera();
+  camera.fx = 46.0;
+  camera.fy = 45.0;
+  camera.distortion = {0.03, -0.01, 0.0, 0.0, 0.002, -0.0005, 0.0, 0.0, LensModel::kEquidistant};
+  return camera;
+}
+
+std::vector<Camera> allCameras() {
+  return {analyticCamera(), lensCamera(), rationalCamera(), equidistantCamera()};
+}
+
 cv::Mat slopingDepthImage(const Camera& camera) {
   cv::Mat depth(camera.height, camera.width, CV_32FC1);
   for (int y = 0; y < depth.rows; ++y) {
@@ -99,7 +119,7 @@ AnalyticImage quadratic() {
 
 TEST(ReferencePointsTest, DerivativesAreThoseOfTheIntensityUnderAnIncrement) {
   const AnalyticImage image = quadratic();
-  for (const Camera& camera : {analyticCamera(), lensCamera()}) {
+  for (const Camera& camera : allCameras()) {
     const bool has_lens = !camera.distortion.isZero();
     const cv::Mat raster = testing::rasterised(image, camera.width, camera.height);
     const ReferencePoints points = makePoints(raster, camera, kPixels);
@@ -145,7 +165,7 @@ TEST(ReferencePointsTest, AnImageOnARasterConvergesToTheTrueDerivative) {
 
 TEST(ReferencePointsTest, PointsProjectToTheirPixelsAndKeepTheirIntensity) {
   const AnalyticImage image = testing::waves();
-  for (const Camera& camera : {analyticCamera(), lensCamera()}) {
+  for (const Camera& camera : allCameras()) {
     const ReferencePoints points =
         makePoints(testing::rasterised(image, camera.width, camera.height), camera, kPixels);
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -162,7 +182,7 @@ TEST(ReferencePointsTest, PointsProjectToTheirPixelsAndKeepTheirIntensity) {
 
 TEST(ReferencePointsTest, PixelMotionIsTheMeanSquareOfWhatAnIncrementMoves) {
   Random random(2);
-  for (const Camera& camera : {analyticCamera(), lensCamera()}) {
+  for (const Camera& camera : allCameras()) {
     const cv::Mat raster = testing::rasterised(testing::waves(), camera.width, camera.height);
     const ReferencePoints points = makePoints(raster, camera, kPixels);
     for (int trial = 0; trial < 5; ++trial) {

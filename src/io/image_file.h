@@ -8,10 +8,9 @@
 
 namespace mivo {
 
-/// The image of a PNG file with its own channels and depth; colour in the order blue, green, red.
-/// Throws Error, naming the file, when it is missing, truncated or damaged: a decoder on its own
-/// may return the part of the image that it could make sense of.
-cv::Mat readPng(const std::string& path);
+/// The image of a PNG, JPEG or PGM file, whatever its name ends with, see decodeImage(). Throws
+/// Error, naming the file.
+cv::Mat readImage(const std::string& path);
 
 /// Writes a CV_8U image with 1, 3 (blue, green, red) or 4 channels or a CV_16UC1 image. Throws
 /// Error.

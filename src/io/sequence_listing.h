@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "mivo/io/camera_file.h"
+
+namespace mivo {
+
+/// A frame of a sequence folder: its stamp (s) and where its images lie.
+struct ListedFrame {
+  double stamp;
+  std::string image_path;
+  std::string depth_path;
+};
+
+/// How the 16 bits of a depth pixel are stored.
+enum class DepthCoding {
+  kPlain,
+  kRotated,   ///< by three bits to the left, as SUN3D and SUN RGB-D have it
+  kSaturated  ///< 65535, too, is no reading, as 7-Scenes has it
+};
+
+/// What a sequence folder holds, however it is laid out.
+struct SequenceListing {
+  std::vector<ListedFrame> frames;  ///< in the order of their stamps, each stamp once
+  SequenceCamera camera;            ///< a width of 0: that of the images
+  std::string camera_file;          ///< where the camera comes from, in a few words
+  DepthCoding depth_coding = DepthCoding::kPlain;
+  /// The colour images show what the depth images show, at another size: they are reduced to it.
+  bool is_colour_reduced = false;
+  std::vector<std::string> notices;  ///< what was assumed or put right
+};
+
+/// Lists a folder in one of the layouts of doc/file_formats.md, which is recognised by its files.
+/// Throws Error when it is none, or one of its files is missing or malformed.
+SequenceListing listSequence(const std::string& folder);
+
+}  // namespace mivo

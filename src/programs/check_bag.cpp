@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "mivo/core/error.h"
+#include "mivo/io/output_file.h"
+#include "programs/bag_options.h"
+#include "programs/command_line.h"
+#include "programs/python_plot.h"
+#include "ros/bag_check.h"
+#include "ros/recording.h"
+
+namespace {
+
+/// What bag.launch needs to know before anything is played.
+void printTopics(const std::vector<std::string>& bags, const mivo::RgbdTopics& wanted) {
+  const mivo::Recording recording(bags);
+  const mivo::RgbdTopics topics = mivo::findTopics(recording.contents(), wanted);
+  std::cout << "layout: " << mivo::layoutOf(topics) << "\n"
+            << "rgb: " << topics.colour << "\n"
+            << "depth: " << topics.depth << "\n"
+            << "camera_info: " << topics.camera_info << "\n"
+            << "depth_info: " << topics.depth_info << "\n";
+  if (!recording.damage().empty()) throw mivo::Error(recording.damage());
+}
+
+void run(int argc, char** argv) {
+  namespace po = boost::program_options;
+  std::vector<std::string> bags;
+  mivo::RgbdTopics topics;
+  std::string csv;
+  std::string plot;
+  bool force = false;
+  bool topics_only = false;
+  mivo::CommandLine line(
+      "check_bag",
+      "Says what is wrong with a recording before the tracker is blamed: rates, gaps, order, "
+      "clocks, the calibration, registration (do edges of depth and colour agree), exposure, blur, "
+      "and how many pixels have depth.");
+  line.arguments("BAG", &bags, "a bag; several are one recording");
+  mivo::declareTopics(line, &topics);
+  line.options()("plot", po::value(&plot)->value_name("FILE"),
+                 "draw it, as .pdf, .svg or .png (needs python3-matplotlib)")(
+      "csv", po::value(&csv)->value_name("FILE.csv"), "write one row per frame")(
+      "force", po::bool_switch(&force), "replace existing files")(
+      "topics", po::bool_switch(&topics_only), "only say the topics and who recorded them");
+  if (!line.parse(argc, argv)) return;
+  if (topics_only) {
+    printTopics(bags, topics);
+    return;
+  }
+  const mivo::Overwrite overwrite = force ? mivo::Overwrite::kYes : mivo::Overwrite::kNo;
+  for (const std::string& file : {plot, csv}) {
+    if (!file.empty()) mivo::refuseExisting(file, overwrite);
+  }
+  const mivo::BagReport report = mivo::checkBag(bags, topics);
+  print(std::cout, report);
+  if (!csv.empty()) mivo::OutputFile(csv, overwrite).write(toCsv(report));
+  if (!plot.empty()) mivo::plotWithPython("plot_bag", toCsv(report), plot);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return mivo::runProgram("check_bag", [&] { run(argc, argv); });
+}

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string>
+
+#include "session/clock_offset.h"
+
+namespace mivo {
+
+/// Why no pair of equal stamps can be believed, for a measured offset of the clocks (s); empty when
+/// they can. The same text for offsets that are nearly the same.
+inline std::string describeClockFault(double offset) {
+  if (ClockOffset::isBelievable(offset)) return {};
+  return fmt::format(
+      "colour and depth that come together are stamped {:.1f} s apart (depth {}): two clocks; "
+      "pairs of equal stamps would be of different times",
+      std::abs(offset), offset > 0.0 ? "later" : "earlier");
+}
+
+}  // namespace mivo

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/camera_doubt.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "support/error_text.h"
+
+namespace mivo {
+namespace {
+
+const Camera kXtion{640, 480, 525.0, 525.0, 319.5, 239.5, {}};
+
+Camera withFocalLengths(double fx, double fy) {
+  Camera camera = kXtion;
+  camera.fx = fx;
+  camera.fy = fy;
+  return camera;
+}
+
+Camera withCentre(double cx, double cy) {
+  Camera camera = kXtion;
+  camera.cx = cx;
+  camera.cy = cy;
+  return camera;
+}
+
+/// Of a pinhole whose longer side of 640 pixels spans an angle.
+double focalLength(double degrees) {
+  return 320.0 / std::tan(0.5 * degrees * M_PI / 180.0);
+}
+
+TEST(CameraDoubtTest, PublishedCamerasAreBeyondDoubt) {
+  const Camera cameras[] = {
+      kXtion,
+      {640, 480, 517.3, 516.5, 318.6, 255.3, {0.2624, -0.9531, -0.0054, 0.0026, 1.1633}},
+      {640, 480, 542.822841, 542.576870, 315.593520, 237.756098, {}},
+      {739, 458, 726.28741455078, 726.28741455078, 354.6496887207, 186.46566772461, {}},
+      {1280, 720, 910.0, 911.0, 640.0, 366.0, {}},
+      {1241, 376, 718.856, 718.856, 607.1928, 185.2157, {}},
+      {512, 512, 252.0, 252.0, 256.0, 252.0, {}}};
+  for (const Camera& camera : cameras) {
+    EXPECT_EQ(errorText([&] { camera.validate(); }), "nothing thrown") << camera.width;
+    EXPECT_EQ(doubtOf(camera), "") << camera.width;
+  }
+}
+
+TEST(CameraDoubtTest, AnglesBelow10AndAbove170DegreesAreRefused) {
+  for (const double degrees : {10.1, 60.0, 169.9}) {
+    const Camera camera = withFocalLengths(focalLength(degrees), focalLength(degrees));
+    EXPECT_EQ(findCameraFault(camera), "") << degrees;
+  }
+  for (const double degrees : {9.9, 170.1}) {
+    for (const Camera& camera : {withFocalLengths(focalLength(degrees), 525.0),
+                                 withFocalLengths(525.0, focalLength(degrees))}) {
+      const std::string error = errorText([&] { camera.validate(); });
+      EXPECT_EQ(error.find("camera: with a focal length of "), 0U) << error;
+      EXPECT_NE(error.find("10 to 170 are possible"), std::string::npos) << error;
+    }
+  }
+  Camera strip = kXtion;  // a strip of an image is no telephoto lens
+  strip.height = 16;
+  strip.cy = 7.5;
+  EXPECT_EQ(findCameraFault(strip), "");
+}
+
+TEST(CameraDoubtTest, PrincipalPointOutsideOfTheImageIsRefused) {
+  EXPECT_EQ(findCameraFault(withCentre(639.5, 479.5)), "");
+  EXPECT_EQ(findCameraFault(withCentre(-0.5, 100.0)), "");
+  for (const Camera& camera : {withCentre(-0.6, 239.5), withCentre(319.5, 479.6),
+                               withCentre(-5000.0, 239.5), withCentre(319.5, -20.0)}) {
+    const std::string error = errorText([&] { camera.validate(); });
+    EXPECT_EQ(error.find("camera: the principal point ("), 0U) << error;
+    EXPECT_NE(error.find("lies outside of images of 640 x 480 pixels"), std::string::npos);
+    EXPECT_EQ(error.find("calibration for"), std::string::npos) << error;
+  }
+  EXPECT_NE(findCameraFault(withCentre(959.5, 719.5)).find("for images of 1920 x 1440 pixels?"),
+            std::string::npos);
+}
+
+TEST(CameraDoubtTest, CalibrationOfAnotherSizeIsDoubted) {
+  EXPECT_EQ(doubtOf(withCentre(159.5, 119.5)),
+            "the principal point (159.5, 119.5) is far from the centre of images of 640 x 480 "
+            "pixels: is the calibration for images of 320 x 240 pixels?");
+  EXPECT_NE(doubtOf(withCentre(479.5, 359.5)).find("for images of 960 x 720"), std::string::npos);
+  EXPECT_EQ(
+      doubtOf(withCentre(100.0, 239.5)),
+      "the principal point (100, 239.5) is far from the centre of images of 640 x 480 pixels");
+  EXPECT_EQ(doubtOf(withCentre(250.0, 200.0)), "");
+}
+
+TEST(CameraDoubtTest, FocalLengthsThatDifferAreDoubted) {
+  EXPECT_EQ(doubtOf(withFocalLengths(525.0, 262.5)),
+            "the focal lengths 525 and 262.5 differ by more than a lens' do");
+  EXPECT_EQ(doubtOf(withFocalLengths(525.0, 500.0)), "");
+}
+
+TEST(CameraDoubtTest, RoundingIsNoDifference) {
+  Camera lens = kXtion;
+  lens.distortion = {0.2624, -0.9531, -0.0054, 0.0026, 1.1633};
+  for (const Camera& camera : {kXtion, lens}) {
+    Camera rounded = camera;
+    rounded.fx *= 1.0 + 1e-9;
+    rounded.cx += 1e-9;
+    rounded.distortion.k2 *= 1.0 - 1e-9;
+    EXPECT_FALSE(rounded == camera);
+    EXPECT_TRUE(isSameButForRounding(camera, rounded));
+    Camera other = camera;
+    other.fy += 0.05;
+    EXPECT_FALSE(isSameButForRounding(camera, other));
+    other = camera;
+    other.distortion.k1 += 1e-4;
+    EXPECT_FALSE(isSameButForRounding(camera, other));
+    other = camera;
+    other.width -= 1;
+    EXPECT_FALSE(isSameButForRounding(camera, other));
+  }
+}
+
+}  // namespace
+}  // namespace mivo

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "ros/bag_check.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <opencv2/imgproc.hpp>
+#include <random>
+#include <sstream>
+
+#include "ros/small_bag.h"
+#include "support/temporary_folder.h"
+
+namespace mivo {
+namespace {
+
+/// Boxes in front of a wall, each with a grey level of its own; depth moved by (dx, dy) pixels.
+Frame boxes(int dx, int dy, unsigned seed) {
+  std::mt19937 random(seed);
+  const auto uniform = [&](int low, int high) {
+    return std::uniform_int_distribution<int>(low, high)(random);
+  };
+  Frame frame;
+  frame.image = cv::Mat(240, 320, CV_8UC1, cv::Scalar(120));
+  frame.depth = cv::Mat(240, 320, CV_16UC1, cv::Scalar(3000));
+  for (int i = 0; i < 12; ++i) {
+    const cv::Rect box(uniform(30, 230), uniform(30, 170), uniform(20, 50), uniform(20, 40));
+    const int depth = uniform(1000, 2000);
+    cv::rectangle(frame.image, box, cv::Scalar(uniform(0, 255)), cv::FILLED);
+    cv::rectangle(frame.depth, box + cv::Point(dx, dy), cv::Scalar(depth), cv::FILLED);
+  }
+  return frame;
+}
+
+TEST(EdgeOffsetTest, IsWhatDepthWasMovedBy) {
+  for (const cv::Point& moved : {cv::Point(0, 0), cv::Point(4, -3), cv::Point(-12, 7)}) {
+    EdgeOffset offset;
+    for (unsigned seed = 0; seed < 10; ++seed) offset.add(boxes(moved.x, moved.y, seed));
+    const auto shift = offset.shift();
+    ASSERT_TRUE(shift) << moved.x;
+    EXPECT_NEAR(shift->x, -moved.x, 0.3);
+    EXPECT_NEAR(shift->y, -moved.y, 0.3);
+  }
+}
+
+TEST(EdgeOffsetTest, IsNotToldOfAWall) {
+  EdgeOffset offset;
+  Frame frame;
+  frame.image = cv::Mat(240, 320, CV_8UC1);
+  cv::randu(frame.image, 0, 255);
+  frame.depth = cv::Mat(240, 320, CV_16UC1, cv::Scalar(2000));
+  for (int i = 0; i < 10; ++i) offset.add(frame);
+  EXPECT_FALSE(offset.shift());
+}
+
+TEST(FrameLookTest, TellsBrightnessSharpnessAndDepth) {
+  Frame frame = boxes(0, 0, 1);
+  frame.depth(cv::Rect(0, 0, 320, 120)) = 0;
+  const FrameLook sharp = lookAt(frame);
+  EXPECT_NEAR(sharp.depth_coverage, 0.5, 1e-9);
+  EXPECT_EQ(sharp.median_depth, 3.0);
+  EXPECT_DOUBLE_EQ(sharp.brightness, cv::mean(frame.image)[0]);
+  cv::GaussianBlur(frame.image, frame.image, {}, 3.0);
+  EXPECT_LT(lookAt(frame).sharpness, 0.4 * sharp.sharpness);
+}
+
+class BagCheckTest : public ::testing::Test {
+ protected:
+  std::vector<std::string> warningsOf(const SmallBag::Change& change) {
+    const std::string path = folder_ / "test.bag";
+    SmallBag::write(path, 0, 40, [&](int i, SmallBag::Messages& m) {
+      std::fill(m.colour.data.begin(), m.colour.data.end(), std::uint8_t{100});
+      for (std::size_t k = 0; k < m.colour.data.size(); k += 7) m.colour.data[k] = 140;
+      change(i, m);
+    });
+    return checkBag({path}, {}).warnings;
+  }
+  static bool has(const std::vector<std::string>& warnings, const std::string& text) {
+    return std::any_of(warnings.begin(), warnings.end(), [&](const std::string& warning) {
+      return warning.find(text) != std::string::npos;
+    });
+  }
+  TemporaryFolder folder_;
+};
+
+TEST_F(BagCheckTest, NothingIsSaidOfAGoodRecording) {
+  EXPECT_EQ(warningsOf([](int, SmallBag::Messages&) {}), std::vector<std::string>{});
+}
+
+TEST_F(BagCheckTest, WhatIsWrongIsSaid) {
+  const auto gap = warningsOf([](int i, SmallBag::Messages& m) {
+    if (i > 10 && i < 20) m.depth.data.clear();
+  });
+  EXPECT_TRUE(has(gap, "/camera/depth_registered/image_raw: 1 gaps, the longest 0.333 s"));
+  EXPECT_TRUE(has(gap, "9 left out: colour image without a partner"));
+
+  EXPECT_TRUE(has(warningsOf([](int i, SmallBag::Messages& m) {
+                    const auto jump = static_cast<std::uint8_t>(i < 20 ? 100 : 180);
+                    std::fill(m.colour.data.begin(), m.colour.data.end(), jump);
+                  }),
+                  "the exposure jumps 1 times"));
+  EXPECT_TRUE(has(warningsOf([](int, SmallBag::Messages& m) {
+                    std::fill(m.depth.data.begin(), m.depth.data.end() - 200, std::uint8_t{0});
+                  }),
+                  "of the pixels have depth"));
+  EXPECT_TRUE(has(warningsOf([](int i, SmallBag::Messages& m) {
+                    m.recorded = toTime(SmallBag::stamp(i) + 5000.0);
+                  }),
+                  "stamps are 5000 s older than the clock of the recording"));
+  EXPECT_TRUE(has(warningsOf([](int i, SmallBag::Messages& m) { m.info.K[0] = i < 20 ? 30 : 31; }),
+                  "2 calibrations"));
+  EXPECT_TRUE(has(warningsOf([](int i, SmallBag::Messages& m) {
+                    m.depth.header.stamp = toTime(SmallBag::stamp(i) + 0.2);
+                  }),
+                  "colour and depth that came together are stamped 0.200 s apart"));
+}
+
+TEST_F(BagCheckTest, AReportHasALineForEachFigureAndARowForEachFrame) {
+  const std::string path = folder_ / "test.bag";
+  SmallBag::write(path, 0, 12);
+  const BagReport report = checkBag({path}, {});
+  std::ostringstream text;
+  print(text, report);
+  EXPECT_NE(text.str().find("layout: openni2\n"), std::string::npos);
+  EXPECT_NE(text.str().find("colour: /camera/rgb/image_raw, 12 messages, 30.00 Hz"),
+            std::string::npos)
+      << text.str();
+  const std::string csv = toCsv(report);
+  EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 13);
+}
+
+}  // namespace
+}  // namespace mivo

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "session/frame_order.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace mivo {
+namespace {
+
+/// What became of frames: their numbers, "|" before one with which a new time begins, in brackets
+/// those that were late, in braces those that were astray.
+std::string fateOf(const std::vector<double>& stamps) {
+  std::string text;
+  FrameOrder<int> order(
+      [&](int& i, bool is_new_time) {
+        text += (is_new_time ? "| " : "") + std::to_string(i) + ' ';
+      },
+      [&](int& i, StampFault fault) {
+        const bool late = fault == StampFault::kLate;
+        text += (late ? "(" : "{") + std::to_string(i) + (late ? ") " : "} ");
+      });
+  for (std::size_t i = 0; i < stamps.size(); ++i) order.push(stamps[i], static_cast<int>(i));
+  order.flush();
+  return text;
+}
+
+TEST(FrameOrderTest, NewerFramesGoThrough) {
+  EXPECT_EQ(fateOf({0.0, 0.03, 0.06, 2.0, 11.9}), "0 1 2 3 4 ");
+}
+
+TEST(FrameOrderTest, DoubledAndLateFramesAreDropped) {
+  EXPECT_EQ(fateOf({1.0, 1.1, 1.1, 1.05, 1.2}), "0 1 (2) (3) 4 ");
+}
+
+TEST(FrameOrderTest, StampsOfZeroAreNoTime) {
+  EXPECT_EQ(fateOf({0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}), "0 (1) (2) (3) (4) (5) (6) ");
+  // The clock is set after the first frames.
+  EXPECT_EQ(fateOf({0.0, 0.0, 0.0, 1.6e9, 1.6e9 + 0.03, 1.6e9 + 0.06}), "0 (1) (2) 3 4 5 ");
+}
+
+TEST(FrameOrderTest, AlternatingClocksGiveTheLaterOne) {
+  std::vector<double> stamps;
+  std::string expected;
+  for (int i = 0; i < 12; ++i) {
+    stamps.push_back(100.0 + i / 30.0 - (i % 2 == 1 ? 3.0 : 0.0));
+    expected += i % 2 == 1 ? "(" + std::to_string(i) + ") " : std::to_string(i) + ' ';
+  }
+  EXPECT_EQ(fateOf(stamps), expected);
+}
+
+TEST(FrameOrderTest, TimeIsSetBackWhenSeveralAgreeAndOnlyOnce) {
+  // A looped bag: four frames are lost to the doubt, and one segment begins.
+  EXPECT_EQ(fateOf({10.0, 10.1, 10.2, 1.0, 1.1, 1.2, 1.3, 1.4, 1.5, 1.6}),
+            "0 1 2 (3) (4) (5) (6) | 7 8 9 ");
+}
+
+TEST(FrameOrderTest, LateFramesThatDoNotAgreeNeverSetTimeBack) {
+  // Reversed, the same stamp for ever, and further apart than a camera's frames.
+  EXPECT_EQ(fateOf({9.0, 8.0, 7.0, 6.0, 5.0, 4.0, 3.0}), "0 (1) (2) (3) (4) (5) (6) ");
+  EXPECT_EQ(fateOf({9.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0}), "0 (1) (2) (3) (4) (5) (6) ");
+  EXPECT_EQ(fateOf({90.0, 1.0, 11.0, 21.0, 31.0, 41.0, 51.0}), "0 (1) (2) (3) (4) (5) (6) ");
+}
+
+TEST(FrameOrderTest, ASingleStampFarAheadIsAstray) {
+  EXPECT_EQ(fateOf({1.0, 1.1, 1e6, 1.2, 1.3}), "0 1 {2} 3 4 ");
+  EXPECT_EQ(fateOf({1.0, 1.1, 1e6, 1.1, 1.2}), "0 1 (3) {2} 4 ");
+}
+
+TEST(FrameOrderTest, PausesAndSlowClocksGoOn) {
+  EXPECT_EQ(fateOf({1.0, 61.0, 61.1, 61.2}), "0 1 2 3 ");
+  // Milliseconds taken for seconds: each frame is far ahead of the last.
+  EXPECT_EQ(fateOf({0.0, 33333.0, 66666.0, 99999.0}), "0 1 2 3 ");
+  EXPECT_EQ(fateOf({1.0, 61.0}), "0 1 ");
+}
+
+TEST(FrameOrderTest, AfterARestartAnyStampWillDo) {
+  int frames = 0;
+  FrameOrder<int> order([&](int&, bool is_new_time) { frames += is_new_time ? 100 : 1; },
+                        [](int&, StampFault) { FAIL(); });
+  order.push(5.0, 0);
+  order.restart();
+  order.push(1.0, 1);
+  EXPECT_EQ(frames, 2);
+}
+
+}  // namespace
+}  // namespace mivo
