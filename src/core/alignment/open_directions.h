@@ -14,11 +14,12 @@
 
 namespace mivo {
 
-/// The coarsest level that is asked for directions; still coarser ones blur away what could be seen.
+/// The coarsest level that is asked for directions; still coarser ones blur away what could be
+/// seen.
 constexpr int kCoarsestAskedLevel = 2;
 /// Below this, derivatives of two coarser images confirm nothing. Sharp edges that are oblique to
-/// the pixels look as if they had texture along them, which moves with the pixels: a level above the
-/// finest the correlation of that is up to 0.94.
+/// the pixels look as if they had texture along them, which moves with the pixels: a level above
+/// the finest the correlation of that is up to 0.94.
 constexpr double kLeastAgreementAbove = 0.97;
 
 /// A descent that has come to its end on the finest level.
@@ -28,8 +29,8 @@ struct FinishedDescent {
   const SsdTerm* image = nullptr;       ///< that of them whose residuals are grey levels, if any
   const ReferencePoints& points;
   const Camera& camera;  ///< of the level
-  /// What the images of coarser levels say at a pose, the coarsest last; asked only where the finest leaves directions
-  /// open, for blur and noise hide there what is seen above.
+  /// What the images of coarser levels say at a pose, the coarsest last; asked only where the
+  /// finest leaves directions open, for blur and noise hide there what is seen above.
   std::function<void(const Eigen::Isometry3d& T_live_ref, std::vector<TermCurvature>& curvatures)>
       add_coarser;
   const PoseExpectation& expected;

@@ -69,9 +69,9 @@ Sight coveringBoth(const SearchInput& input, const Sight& better, const Sight& o
   // The increment moves the keyframe's points before the pose is applied.
   const Eigen::Isometry3d T_keyframe_odom =
       input.keyframes.at(better.keyframe).T_odom_keyframe.inverse();
-  const Vector6 difference = localCoordinates(T_keyframe_odom * poseOf(input, better) *
-                                              poseOf(input, other).inverse() *
-                                              T_keyframe_odom.inverse());
+  const Vector6 difference =
+      localCoordinates(T_keyframe_odom * poseOf(input, better) * poseOf(input, other).inverse() *
+                       T_keyframe_odom.inverse());
   both.alignment.covariance += difference * difference.transpose();
   return both;
 }

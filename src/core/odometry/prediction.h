@@ -16,8 +16,8 @@ struct Prediction {
   bool is_given = false;
   Matrix6 covariance = Matrix6::Identity();  ///< of its error, in the axes of the camera
   Matrix6 drift = Matrix6::Identity();  ///< the part of it that has come up since the last pose
-  double periods = 1.0;                      ///< since the last pose
-  double seconds = 0.0;                      ///< since the last pose
+  double periods = 1.0;                 ///< since the last pose
+  double seconds = 0.0;                 ///< since the last pose
 };
 
 /// @param start a pose from elsewhere, such as another odometry; null: none

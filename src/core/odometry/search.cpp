@@ -77,8 +77,7 @@ std::optional<Sight> recover(const SearchInput& input, const Prediction& predict
 bool isDoubtful(const SearchInput& input, const Prediction& prediction, const Sight& sight) {
   if (!isConvincing(sight.alignment, input.parameters.loss)) return true;
   const double bound = input.parameters.loss.surprise_deviations;
-  return input.state.motion.hasVelocity() &&
-         innovation(input, prediction, sight) > bound * bound;
+  return input.state.motion.hasVelocity() && innovation(input, prediction, sight) > bound * bound;
 }
 
 /// How many of the coarsest levels are aligned by mutual information.
@@ -99,8 +98,7 @@ Sight compete(const SearchInput& input, const Prediction& prediction, const Sigh
         RecoveryAttempt{0, prediction.T_odom_camera, true, numMiLevels(input)}}) {
     const Sight sight = look(input, prediction, attempt);
     if (!isBelievable(sight)) continue;
-    const bool is_better =
-        evidence(input, prediction, sight) > evidence(input, prediction, best);
+    const bool is_better = evidence(input, prediction, sight) > evidence(input, prediction, best);
     const Sight& other = is_better ? best : sight;
     if (isAmbiguous(input, prediction, is_better ? sight : best, other)) second_best = other;
     if (is_better) best = sight;

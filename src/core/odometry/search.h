@@ -31,8 +31,8 @@ struct Sight {
 };
 
 /// Aligns the frame with the current keyframe from the prediction, and judges the result. When
-/// its image hardly agrees, or the motion surprises, other starts compete with it; when it cannot be
-/// believed other keyframes are tried, too.
+/// its image hardly agrees, or the motion surprises, other starts compete with it; when it cannot
+/// be believed other keyframes are tried, too.
 Sight findCamera(const SearchInput& input, const Prediction& prediction);
 
 }  // namespace mivo

@@ -331,6 +331,9 @@ TEST(AbsurdFramesTest, TinyAndOddCamerasWork) {
     Camera camera = walk().camera;
     camera.width = size.width;
     camera.height = size.height;
+    camera.fx = camera.fy = size.width;  // a wide view, as any camera's
+    camera.cx = 0.5 * (size.width - 1);
+    camera.cy = 0.5 * (size.height - 1);
     Odometry odometry(camera, {});
     Frame frame;
     frame.image = cv::Mat(size, CV_8UC1);
