@@ -49,7 +49,7 @@ void setPinhole(Camera& camera, const double* matrix, int columns, const char* n
                 " has no positive focal length; set the camera's calibration file");
   }
   if (matrix[1] != 0.0) {
-    throw Error(std::string("camera_info: ") + name + " has a skew, which is not supported");
+    throw Error(std::string("camera_info: ") + name + " has skew, which is not supported");
   }
 }
 
@@ -62,8 +62,8 @@ bool isRectifiedTopic(const std::string& topic) {
 Camera toCamera(const sensor_msgs::CameraInfo& message, bool rectified) {
   if (message.binning_x > 1 || message.binning_y > 1) {
     throw Error(
-        "camera_info says that the image is binned, which is not supported; use a calibration "
-        "for the size of the image");
+        "camera_info has binning, which is not supported; use a calibration for the size of the "
+        "image");
   }
   Camera camera;
   camera.width = static_cast<int>(message.width);

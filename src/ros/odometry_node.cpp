@@ -11,8 +11,8 @@
 namespace mivo {
 namespace {
 
-constexpr double kTimeJump = 1.0;           // s: time was set back, the frame is not merely late
-constexpr int kStaleFramesOfAJump = 10;     // as many late frames in a row are a jump too
+constexpr double kTimeJump = 1.0;           // s; older by more: time was set back
+constexpr int kStaleFramesOfAJump = 10;     // this many late frames in a row: time was set back
 constexpr double kLogPeriod = 5.0;          // s between messages of the same kind
 constexpr std::size_t kLongBacklog = 300;   // frames
 constexpr double kDiagnosticsPeriod = 1.0;  // s
@@ -77,13 +77,15 @@ void OdometryNode::work() {
     if (!ros::ok()) {
       if (!closed) closed = ros::WallTime::now();
       if ((ros::WallTime::now() - *closed).toSec() > kMaxDrain) {
-        ROS_ERROR_STREAM("ended before " << frames_.clear() + 1
-                                         << " waiting frames were tracked: play slower (rate)");
+        ROS_ERROR_STREAM("stopped with " << frames_.clear() + 1
+                                         << " frames not tracked: play the bag more slowly (rate)");
         return;
       }
     }
     if (frames_.size() > kLongBacklog) {
-      ROS_WARN_THROTTLE(kLogPeriod, "%zu frames wait: tracking is slower than the bag; play slower",
+      ROS_WARN_THROTTLE(kLogPeriod,
+                        "%zu frames are waiting: tracking is slower than playback; play the bag "
+                        "more slowly (rate)",
                         frames_.size());
     }
     if (!paused_) process(*pair);
@@ -95,7 +97,7 @@ void OdometryNode::process(const ImagePair& pair) {
     const double begin = threadMilliseconds();
     const MessageFrame input = toFrame(pair, rectified_);
     track(pair, input, threadMilliseconds() - begin);
-  } catch (const std::exception& error) {  // whatever it is: the manager's other nodelets go on
+  } catch (const std::exception& error) {  // no exception may end the nodelet manager
     skipped_.add(error.what(), ros::WallTime::now());
   }
 }
@@ -115,7 +117,7 @@ bool OdometryNode::acceptStamp(const ros::Time& stamp) {
 }
 
 void OdometryNode::restartAfterJump(const ros::Time& stamp) {
-  ROS_WARN("time was set back by %.3f s (a looped bag?): tracking starts anew at the last pose",
+  ROS_WARN("time was set back by %.3f s (a looped bag?): tracking restarts at the last pose",
            (last_stamp_ - stamp).toSec());
   session_.restart();
   startTrajectory();
@@ -124,7 +126,7 @@ void OdometryNode::restartAfterJump(const ros::Time& stamp) {
 void OdometryNode::startTrajectory() {
   try {
     trajectory_.startAnew();
-  } catch (const Error& error) {  // poses are kept all the same, as in record()
+  } catch (const Error& error) {  // the poses stay in memory, as in record()
     ROS_ERROR("%s", error.what());
   }
 }
@@ -133,7 +135,8 @@ void OdometryNode::track(const ImagePair& pair, const MessageFrame& input, doubl
   const std_msgs::Header& header = pair.colour->header;
   const std::optional<Eigen::Isometry3d> T_base_camera =
       transforms_.baseCamera(header.frame_id, header.stamp);
-  guess_.look(header.stamp, T_base_camera);  // waits for tf: services must not wait for that too
+  guess_.look(header.stamp,
+              T_base_camera);  // waits for tf, without the mutex: services must not wait
   warnings_.lookAtFrames(pair, transforms_);
 
   const std::lock_guard<std::mutex> lock(mutex_);
@@ -162,10 +165,10 @@ void OdometryNode::track(const ImagePair& pair, const MessageFrame& input, doubl
   diagnostics_.addFrame(status, depth);
 }
 
-/// A frame that is not newer than the one before is left to the tracker to refuse.
+/// The tracker itself refuses a frame that is not newer than the one before.
 const TrackingResult& OdometryNode::follow(const MessageFrame& input, const ros::Time& stamp) {
   if (acceptStamp(stamp) && session_.setCamera(input.camera)) {
-    ROS_WARN("the camera's calibration has changed: tracking starts anew at the last pose");
+    ROS_WARN("the camera's calibration has changed: tracking restarts at the last pose");
   }
   const std::optional<Eigen::Isometry3d> start =
       guess_.start(session_.lastMeasured(), session_.parameters().loss);

@@ -97,7 +97,7 @@ TEST(CameraConversionTest, UnusableCalibrationsAreRefused) {
   EXPECT_ERROR(toCamera(sensor_msgs::CameraInfo(), false), "not calibrated");
   sensor_msgs::CameraInfo info = toCameraInfo(makeCamera());
   info.binning_x = 2;
-  EXPECT_ERROR(toCamera(info, false), "binned");
+  EXPECT_ERROR(toCamera(info, false), "binning");
   info = toCameraInfo(makeCamera());
   info.width = 0;
   EXPECT_ERROR(toCamera(info, false), "");

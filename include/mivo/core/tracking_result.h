@@ -122,8 +122,8 @@ struct TrackingResult {
   StageTimes milliseconds;
 };
 
-/// The reason in a few words, with the directions in those of the camera, e.g. "no view of motion
-/// sideways, turning about the vertical axis".
+/// The reason in a few words, with the open directions in the axes of the camera, e.g. "motion is
+/// not observable: sideways, turning about the vertical axis".
 std::string describeReason(const TrackingResult& result);
 
 }  // namespace mivo
