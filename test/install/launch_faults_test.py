@@ -91,7 +91,7 @@ class LaunchFaultsTest(Case):
 
     def test_a_missing_folder_is_told(self):
         missing = self.path("missing/run.txt")
-        line = "'output' is '%s', but there is no folder '%s': make it first" % (
+        line = "'output' is '%s', but there is no folder '%s': create it first" % (
             missing, self.path("missing"))
         for launch in (("bag.launch", "bag:=" + self.bag), ("odometry.launch",), ("xtion.launch",)):
             self.expect_refusal(line, *launch, "output:=" + missing, "force:=true")
@@ -134,7 +134,7 @@ class LaunchFaultsTest(Case):
                             "bag:=" + self.taken)
 
     def test_frames_must_differ(self):
-        self.expect_refusal("'base_frame' is 'odom', the frame of 'odom_frame', too", "bag.launch",
+        self.expect_refusal("'base_frame' is 'odom', which is also the frame of 'odom_frame'", "bag.launch",
                             "bag:=" + self.bag, "base_frame:=/odom")
 
 
