@@ -27,18 +27,19 @@ void run(int argc, char** argv) {
   std::string plot_path;
   mivo::EvaluationOptions options;
   bool force = false;
-  mivo::CommandLine line("evaluate_trajectory",
-                         "Compares an estimated trajectory with the truth: relative pose error and "
-                         "absolute trajectory error.");
-  line.argument("TRUTH", &truth_path, "true trajectory, lines 'stamp tx ty tz qx qy qz qw'");
+  mivo::CommandLine line(
+      "evaluate_trajectory",
+      "Compares an estimated trajectory with ground truth: relative pose error and "
+      "absolute trajectory error.");
+  line.argument("TRUTH", &truth_path, "ground truth, lines 'stamp tx ty tz qx qy qz qw'");
   line.argument("ESTIMATE", &estimate_path, "estimated trajectory, in the same format");
   line.options()("delta", po::value(&options.delta)->default_value(options.delta, "1"),
-                 "drift is measured over this time, seconds")(
+                 "interval of the relative pose error, seconds")(
       "max-time-difference",
       po::value(&options.max_time_difference)->default_value(options.max_time_difference, "0.02"),
-      "poses further apart in time than this are not compared, seconds")(
-      "json", po::value(&json_path)->value_name("FILE"), "write the figures as JSON, too")(
-      "plot", po::value(&plot_path)->value_name("FILE.png"), "draw paths and errors")(
+      "largest difference between the stamps of compared poses, seconds")(
+      "json", po::value(&json_path)->value_name("FILE"), "also write the figures as JSON")(
+      "plot", po::value(&plot_path)->value_name("FILE.png"), "plot paths and errors")(
       "force", po::bool_switch(&force), "replace existing files");
   if (!line.parse(argc, argv)) return;
   requirePositive("delta", options.delta);

@@ -11,10 +11,11 @@ namespace {
 void run(int argc, char** argv) {
   std::string bag;
   mivo::RgbdTopics topics;
-  mivo::CommandLine line("run_bag",
-                         "Visual odometry over a bag, as fast as it goes and without a ROS master: "
-                         "tracks each frame and writes the camera's trajectory.");
-  line.argument("BAG", &bag, "a bag with colour images, registered depth images and camera_info");
+  mivo::CommandLine line(
+      "run_bag",
+      "Tracks an RGB-D camera through a bag, as fast as possible and without a ROS "
+      "master, and writes its trajectory.");
+  line.argument("BAG", &bag, "bag with color images, registered depth images and camera_info");
   mivo::declareTopics(line, &topics);
   mivo::TrackingCommandLine tracking;
   tracking.declare(line);

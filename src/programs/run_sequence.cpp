@@ -9,10 +9,11 @@ namespace {
 
 void run(int argc, char** argv) {
   std::string folder;
-  mivo::CommandLine line("run_sequence",
-                         "Visual odometry over a sequence folder: tracks each frame and writes the "
-                         "camera's trajectory.");
-  line.argument("FOLDER", &folder, "rgb.txt, depth.txt, [associations.txt,] camera.txt and images");
+  mivo::CommandLine line(
+      "run_sequence",
+      "Tracks an RGB-D camera through a sequence folder and writes its trajectory.");
+  line.argument("FOLDER", &folder,
+                "folder with rgb.txt, depth.txt, [associations.txt,] camera.txt and images");
   mivo::TrackingCommandLine tracking;
   tracking.declare(line);
   if (!line.parse(argc, argv)) return;

@@ -90,8 +90,9 @@ std::string findDepthFault(const TrackingSummary& summary, const DepthParameters
   const double median = medianOf(summary.depth_medians);
   if (median >= parameters.min_depth && median <= parameters.max_depth) return {};
   return fmt::format(
-      "median depth seen {:.4g} m, {:.0f} % of the pixels, where {} to {} m are taken: is the "
-      "depth unit wrong ({})?",
+      "median depth seen {:.4g} m, {:.0f} % of the pixels, outside of {} to {} m: is the depth "
+      "unit "
+      "wrong ({})?",
       median, 100.0 * summary.depth_coverage / static_cast<double>(summary.frames),
       parameters.min_depth, parameters.max_depth, depth_unit);
 }
