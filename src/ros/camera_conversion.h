@@ -13,8 +13,8 @@ namespace mivo {
 bool isRectifiedTopic(const std::string& topic);
 
 /// Camera of a calibration: K and D for raw images, P for rectified ones. Throws Error, with the
-/// remedy, when it is empty, contradicts itself, is binned, or has a lens model that is not
-/// plumb_bob (a rational polynomial whose last three coefficients are zero is one).
+/// remedy, when it is empty, inconsistent, binned, or has a lens model other than plumb_bob. A
+/// rational polynomial whose last three coefficients are zero is accepted.
 Camera toCamera(const sensor_msgs::CameraInfo& message, bool rectified);
 
 /// Calibration of a camera, as plumb_bob. The header is left empty.

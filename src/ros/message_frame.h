@@ -7,13 +7,13 @@
 
 namespace mivo {
 
-/// What a pair of messages says, ready for the tracker.
+/// A pair of messages converted for the tracker.
 struct MessageFrame {
   Camera camera;
-  Frame frame;  ///< refers to the pixels of the messages
+  Frame frame;  ///< references the pixels of the messages
 };
 
-/// Throws Error with the reason when a message cannot be used or they do not fit together.
+/// Throws Error with the reason when a message cannot be used or the messages do not match.
 MessageFrame toFrame(const ImagePair& pair, bool rectified);
 
 }  // namespace mivo

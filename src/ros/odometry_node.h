@@ -30,15 +30,15 @@
 
 namespace mivo {
 
-/// The odometry as a ROS node: three threads of its own, so that a manager is never held up. One
-/// receives and pairs images, one tracks, one answers services.
+/// The odometry as a ROS node. Three threads of its own never block a nodelet manager: one receives
+/// and pairs images, one tracks, one answers services.
 class OdometryNode : private OdometryActions {
  public:
-  /// Throws Error for parameters that cannot be used.
+  /// Throws Error for invalid parameters.
   OdometryNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
                OdometryDiagnostics& diagnostics);
 
-  /// Tracks what still waits (with drop_frames: false), then ends.
+  /// Tracks waiting frames (with drop_frames: false) before it returns.
   ~OdometryNode();
 
  private:
@@ -69,9 +69,9 @@ class OdometryNode : private OdometryActions {
   FrameQueue<ImagePair> frames_;
   SkippedFrames skipped_;
   std::atomic<bool> paused_{false};
-  InputWarnings warnings_;  // the worker's own
+  InputWarnings warnings_;  // used by the worker only
 
-  std::mutex mutex_;  // guards the tracker and what belongs to it, from here to the empty line
+  std::mutex mutex_;  // guards the members up to the empty line
   TrackingSession session_;
   TrajectoryRecorder trajectory_;
   OdometryOutput output_;
@@ -81,7 +81,7 @@ class OdometryNode : private OdometryActions {
   int stale_frames_ = 0;  // in a row
 
   TransformSource transforms_;
-  MotionGuess guess_;  // the worker's own
+  MotionGuess guess_;  // used by the worker only
   std::unique_ptr<FrameInput> input_;
   std::unique_ptr<OdometryServices> services_;
   std::unique_ptr<ReconfigureServer> reconfigure_;

@@ -8,11 +8,11 @@
 
 namespace mivo {
 
-/// What a parameter's value is, in words: "a whole number", "a string".
+/// Type of a value in words: "a whole number", "a string".
 std::string typeText(const XmlRpc::XmlRpcValue& value);
 
-// Reads a parameter of a node's own name, when it is set. Throws Error, naming it, when its type is
-// another. A whole number does for one with decimals.
+// Reads a private parameter if it is set. Throws Error with its name when it has another type. An
+// integer is accepted for a floating-point parameter.
 void readParameter(const ros::NodeHandle& node, const std::string& name, bool& value);
 void readParameter(const ros::NodeHandle& node, const std::string& name, std::string& value);
 
