@@ -13,12 +13,12 @@
 
 namespace mivo {
 
-/// How many frames something was said of.
+/// Numbers of frames by reason.
 using CountByReason = std::map<std::string, std::size_t>;
 
 /// Totals over a run.
 struct TrackingSummary {
-  std::size_t frames = 0;  ///< looked at by the tracker; skipped ones are not among them
+  std::size_t frames = 0;  ///< processed by the tracker, without skipped ones
   std::size_t initialising = 0;
   std::size_t tracked = 0;
   std::size_t degraded = 0;
@@ -35,18 +35,18 @@ struct TrackingSummary {
   std::vector<double> depth_medians;  ///< m, of the frames that have depth
   double depth_coverage = 0.0;        ///< part of the pixels with depth, summed over the frames
 
-  /// Counts a frame that was looked at.
+  /// Counts a processed frame.
   void add(const Frame& frame, const TrackingResult& result, double cpu_ms);
 
-  /// Counts a frame that was not. Whether it is the first with this reason.
+  /// Counts a skipped frame. Returns whether it is the first with this reason.
   bool addSkipped(const std::string& reason);
 };
 
 /// Lines `name: value`.
 void print(std::ostream& stream, const TrackingSummary& summary);
 
-/// What is wrong with the depth as a whole, as one line, or an empty text: it is not there, or its
-/// median is out of the range that the tracker takes.
+/// One line if there is no depth at all or its median is outside of the range of the tracker; empty
+/// otherwise.
 /// @param depth_unit  where the unit of depth comes from, FrameSource::depthUnit()
 std::string findDepthFault(const TrackingSummary& summary, const DepthParameters& parameters,
                            const std::string& depth_unit);
