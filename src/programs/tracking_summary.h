@@ -48,9 +48,9 @@ struct TrackingSummary {
 /// Lines `name: value`.
 void print(std::ostream& stream, const TrackingSummary& summary);
 
-/// One line if something is wrong with the depth as a whole: there is none, its median is outside of
-/// the range of the tracker or unlikely in a room, or its bits are stored in an unusual way. With
-/// the median and the likely cause. Empty otherwise.
+/// One line if something is wrong with the depth as a whole: there is none, its median is outside
+/// of the range of the tracker or unlikely in a room, or its bits are stored in an unusual way.
+/// With the median and the likely cause. Empty otherwise.
 /// @param depth_unit  where the unit of depth comes from, FrameSource::depthUnit()
 std::string findDepthFault(const TrackingSummary& summary, const DepthParameters& parameters,
                            const std::string& depth_unit);

@@ -15,8 +15,9 @@ bool isRectifiedTopic(const std::string& topic);
 
 /// Camera of a calibration: K and D for raw images, P for rectified ones, after the region of
 /// interest and the binning of the image. Lens models: plumb_bob, rational_polynomial with 8
-/// coefficients, equidistant; any model with only zeros is a pinhole. Throws Error, with the remedy,
-/// when it is empty, inconsistent, implausible (Camera::validate), or has another lens model.
+/// coefficients, equidistant; any model with only zeros is a pinhole. Throws Error, with the
+/// remedy, when it is empty, inconsistent, implausible (Camera::validate), or has another lens
+/// model.
 /// @param image_size  of the images; used when the message has the size 0 x 0
 Camera toCamera(const sensor_msgs::CameraInfo& message, bool rectified,
                 const cv::Size& image_size = {});

@@ -76,9 +76,11 @@ OdometryNode::~OdometryNode() {
 void OdometryNode::enqueue(const ImagePair& pair) {
   frames_.push(pair);
   if (parameters_.drop_frames || frames_.dropped() == 0) return;
-  ROS_WARN_THROTTLE(kLogPeriod,
-                    "more than %zu frames wait: the oldest are dropped, %lu so far; play slower",
-                    kMaxBacklog, static_cast<unsigned long>(frames_.dropped()));
+  ROS_WARN_THROTTLE(
+      kLogPeriod,
+      "more than %zu frames are waiting: the oldest are dropped, %lu so far; play the "
+      "bag more slowly (rate)",
+      kMaxBacklog, static_cast<unsigned long>(frames_.dropped()));
 }
 
 void OdometryNode::work() {

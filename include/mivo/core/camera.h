@@ -38,8 +38,8 @@ struct Distortion {
   friend bool operator!=(const Distortion& a, const Distortion& b) { return !(a == b); }
 };
 
-/// Radius around the optical axis within which the lens model is invertible: each pixel has one ray.
-/// Radii in normalised coordinates; both infinite for a lens without distortion.
+/// Radius around the optical axis within which the lens model is invertible: each pixel has one
+/// ray. Radii in normalised coordinates; both infinite for a lens without distortion.
 struct LensRange {
   double undistorted;  ///< of rays
   double distorted;    ///< of pixels: (pixel - principal point) / focal length
