@@ -83,9 +83,9 @@ void addSequenceOptions(mivo::CommandLine& line, Request& request) {
       "polynomial (plumb_bob, rational_polynomial) or equidistant (fisheye)")(
       "distortion", po::value(&request.distortion)->value_name("K1,K2,P1,P2,K3[,K4,K5,K6]"),
       "lens distortion, five or eight numbers separated by commas without blanks, or K1,K2,K3,K4 "
-      "of an equidistant lens (default: none)")("field-of-view",
-                                             number(request.field_of_view, "an Xtion's"),
-                                             "horizontal, degrees, before polynomial distortion")(
+      "of an equidistant lens (default: none)")(
+      "field-of-view", number(request.field_of_view, "an Xtion's"),
+      "horizontal, degrees, before polynomial distortion")(
       "threads", number(request.threads, "all cores"),
       "threads; the result does not depend on their number")(
       "force", po::bool_switch(&request.force), "replace an existing sequence");

@@ -146,7 +146,7 @@ class InstallTest(unittest.TestCase):
             setup = os.path.join(space, "setup.bash")
             for name in ("run_bag", "run_sequence"):
                 self.assertIn("Usage: " + name, sourced(setup, "rosrun mivo %s --help" % name))
-            self.assertIn("the bag to play; must be given", sourced(setup, "roslaunch --ros-args mivo bag.launch"))
+            self.assertIn("bag to play (required)", sourced(setup, "roslaunch --ros-args mivo bag.launch"))
             plugins = sourced(setup, "rospack plugins --attrib=plugin nodelet")
             self.assertRegex(plugins, r"mivo \S*/nodelet_plugins.xml")
 

@@ -82,7 +82,7 @@ class LaunchFaultsTest(Case):
                 (["output:=taken.txt"],
                  "'output' is '%s', which exists: force:=true replaces it" % self.taken),
                 (["output:=missing/run.txt"],
-                 "'output' is '%s/run.txt', but there is no folder '%s': make it first" % (missing, missing)),
+                 "'output' is '%s/run.txt', but there is no folder '%s': create it first" % (missing, missing)),
                 (["method:=foo"], "'method' is 'foo', expected hybrid, mi, ssd"),
                 (["rate:=fast"], "'rate' is 'fast', expected a number above 0")):
             with self.subTest(arguments=arguments):

@@ -82,7 +82,7 @@ class FaultsTest(unittest.TestCase):
 
     def test_without_colour(self):
         self.break_and_mend({"color": 0}, {"color": 1}, "has no color stream",
-                            "use a model with a colour camera")
+                            "use a model with a color camera")
 
     def test_without_registration(self):
         self.break_and_mend({"registration": 0}, {"registration": 1},
