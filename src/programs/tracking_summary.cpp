@@ -155,7 +155,7 @@ std::string findDepthFault(const TrackingSummary& summary, const DepthParameters
 
   std::string text = describeDepth(summary);
   if (is_out) {
-    text += fmt::format(", where {} to {} m are taken", parameters.min_depth, parameters.max_depth);
+    text += fmt::format(", outside of {} to {} m", parameters.min_depth, parameters.max_depth);
   }
   if (!storage.empty()) return text + ": " + storage;
   return text + fmt::format(": is the depth unit wrong ({})?", depth_unit) +

@@ -68,7 +68,7 @@ void setPinhole(Camera& camera, const double* matrix, int columns, const char* n
                 " has no positive focal length; set the camera's calibration file");
   }
   if (matrix[1] != 0.0) {
-    throw Error(std::string("camera_info: ") + name + " has a skew, which is not supported");
+    throw Error(std::string("camera_info: ") + name + " has skew, which is not supported");
   }
   const double* last = matrix + 2 * columns;
   if (last[0] != 0.0 || last[1] != 0.0 || last[2] != 1.0) {
@@ -105,7 +105,7 @@ Camera toCamera(const sensor_msgs::CameraInfo& message, bool rectified,
                 const cv::Size& image_size) {
   sensor_msgs::CameraInfo info = message;
   const bool has_size = info.width > 0 || info.height > 0;
-  if (!has_size) {  // of some drivers; then nothing is known of a region either
+  if (!has_size) {  // as some drivers send it; then nothing is known of a region either
     info.width = static_cast<std::uint32_t>(image_size.width);
     info.height = static_cast<std::uint32_t>(image_size.height);
   }

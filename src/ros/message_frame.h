@@ -9,31 +9,31 @@
 
 namespace mivo {
 
-/// What a pair of messages says, ready for the tracker.
+/// A pair of messages converted for the tracker.
 struct MessageFrame {
   Camera camera;
-  Frame frame;  ///< refers to the pixels of the messages
+  Frame frame;  ///< references the pixels of the messages
 };
 
-/// What a pair of messages shows, before anything is made of the colours.
+/// The content of a pair of messages, before conversion to grey.
 struct MessageImages {
   Camera camera;
   ColourImage colour;
-  DepthImage depth;  ///< of the colour camera: registered, and as large
+  DepthImage depth;  ///< registered to the colour camera and of its size
 };
 
-/// Makes frames of the pairs of one camera.
+/// Creates the frames of one camera from pairs of messages.
 class FrameMaker {
  public:
   explicit FrameMaker(bool rectified) : rectified_(rectified) {}
 
-  /// Throws Error with the reason when a message cannot be used or they do not fit together.
+  /// Throws Error with the reason when a message cannot be used or the messages do not match.
   MessageFrame make(const ImagePair& pair);
 
-  /// The same, with the colours. Throws Error when a message cannot be used.
+  /// The same, with colour. Throws Error when a message cannot be used.
   MessageImages read(const ImagePair& pair);
 
-  /// Grey image of colours; of 16 bits, by the range that the images have used so far.
+  /// Grey image of a colour image; 16 bits are scaled by the range of the images so far.
   cv::Mat toGrey(const ColourImage& colour);
 
  private:

@@ -11,23 +11,23 @@
 
 namespace mivo {
 
-/// The parameters of the tracker under the private name of a node; those that are not set keep
-/// their defaults. Values mean what they do in a configuration file: a string "1e-4" is a number,
-/// "off" a switch. Throws Error, naming the parameter and its range, for what is none of the type
-/// or out of range.
+/// The parameters of the tracker under the private name of a node; those not set keep their
+/// defaults. Values are read as in a configuration file: the string "1e-4" is a number, "off" a
+/// switch. Throws Error, naming the parameter and its range, for a wrong type or a value out of
+/// range.
 Parameters readParameters(const ros::NodeHandle& node);
 
 /// Names under the private name of a node that are neither the tracker's nor among `others`, each
-/// as a line that says the nearest known name where one is near. Names with a slash belong to
-/// someone else: to a transport or to dynamic_reconfigure, say.
+/// as a line with the nearest known name, if one is near. Names with a slash belong to other
+/// components, such as a transport or dynamic_reconfigure.
 std::vector<std::string> findUnknownParameters(const ros::NodeHandle& node,
                                                const std::vector<std::string>& others);
 
-/// Writes all values to the parameter server, so that what is in effect can be read there.
+/// Writes all values in effect to the parameter server.
 void writeParameters(const ros::NodeHandle& node, const Parameters& parameters);
 
 /// `parameters` changed by a request of dynamic_reconfigure. Throws Error, as readParameters does,
-/// when any of the values cannot be taken.
+/// when any of the values is invalid.
 Parameters changed(const Parameters& parameters, const dynamic_reconfigure::Config& request);
 
 /// All values as dynamic_reconfigure reports them.

@@ -8,11 +8,11 @@
 
 namespace mivo {
 
-/// What a parameter's value is, in words: "a whole number", "a string".
+/// Type of a value in words: "a whole number", "a string".
 std::string typeText(const XmlRpc::XmlRpcValue& value);
 
-// Reads a parameter of a node's own name, when it is set. Throws Error, naming it, when it does not
-// mean a value of the type: a string does that spells one as a configuration file would.
+// Reads a private parameter if it is set. Throws Error with its name when it has another type. A
+// string is accepted that a configuration file could contain for the type.
 void readParameter(const ros::NodeHandle& node, const std::string& name, bool& value);
 void readParameter(const ros::NodeHandle& node, const std::string& name, std::string& value);
 

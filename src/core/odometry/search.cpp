@@ -10,8 +10,7 @@
 namespace mivo {
 namespace {
 
-/// From another segment nothing leads here: the camera counts as standing still, and may be
-/// anywhere.
+/// For a keyframe of another segment there is no prediction: zero velocity, unknown pose.
 AlignmentTask taskFor(const SearchInput& input, const Prediction& prediction,
                       const PosedKeyframe& keyframe, const RecoveryAttempt& attempt) {
   const bool is_connected = keyframe.segment == input.state.segment;
@@ -35,7 +34,7 @@ AlignmentTask taskFor(const SearchInput& input, const Prediction& prediction,
   return task;
 }
 
-/// Within one segment the motion since the last frame counts, too.
+/// Within one segment the motion since the last frame is checked as well.
 TrackingReason judgeSight(const SearchInput& input, const Prediction& prediction,
                           const PosedKeyframe& keyframe, const Alignment& alignment) {
   const TrackingReason reason = judge(alignment, input.parameters.loss);
@@ -59,7 +58,7 @@ bool isBelievable(const Sight& sight) {
   return sight.reason == TrackingReason::kNone;
 }
 
-/// The first of the other ways that leads to a result that needs no history to be believed.
+/// The first recovery attempt with a result that is acceptable without a prediction.
 std::optional<Sight> recover(const SearchInput& input, const Prediction& prediction) {
   const OdometryState& state = input.state;
   for (const RecoveryAttempt& attempt : recoveryAttempts(
