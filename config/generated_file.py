@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Command line of the scripts that write a file from the table of parameters."""
+"""Command line of the scripts that generate a file from the parameter table."""
 
 import os
 import sys
@@ -19,6 +19,6 @@ def write_or_check(path, text, script, usage):
     with open(os.path.join(ROOT, path), encoding="utf-8") as file:
         if file.read() == text:
             return 0
-    print("%s does not agree with include/mivo/core/parameters.def; run %s" % (path, script),
+    print("%s is not up to date with include/mivo/core/parameters.def; run %s" % (path, script),
           file=sys.stderr)
     return 1

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Reads the table of the tracker's parameters, include/mivo/core/parameters.def."""
+"""Parser of the parameter table, include/mivo/core/parameters.def."""
 
 import os
 import re
@@ -7,7 +7,7 @@ import re
 TABLE = os.path.join(os.path.dirname(os.path.realpath(__file__)), "..", "include", "mivo", "core",
                      "parameters.def")
 
-# A row is one macro call; its arguments are words, numbers and plain string literals.
+# A row is one macro call whose arguments are words, numbers and plain string literals.
 ROW = re.compile(r'^MIVO_(\w+)\s*\(((?:[^()"]|"[^"]*")*)\)', re.MULTILINE)
 ARGUMENT = re.compile(r'\s*("[^"]*"|[^,\s]+)\s*(?:,|$)')
 
@@ -29,13 +29,13 @@ class Parameter:
             self.words = words.split("|")
             self.value = camel_to_snake(value)
             if self.value not in self.words:
-                raise SystemExit("%s: default %s of '%s' is none of %s"
+                raise SystemExit("%s: default %s of '%s' is not one of %s"
                                  % (TABLE, value, self.name, self.words))
         else:
             raise SystemExit("%s: unknown kind of row: MIVO_%s" % (TABLE, kind))
 
     def range_text(self):
-        """What the value may be, in words."""
+        """The range or the choices as text."""
         if self.words:
             return " | ".join(self.words)
         if self.kind == "BOOL":
@@ -44,12 +44,12 @@ class Parameter:
 
 
 def camel_to_snake(enumerator):
-    """kConstantVelocity -> constant_velocity, as the words of the table are spelt."""
+    """kConstantVelocity -> constant_velocity, as in the words of the table."""
     return re.sub(r"(?<!^)(?=[A-Z])", "_", enumerator[1:]).lower()
 
 
 def read_parameters():
-    """All rows in the order of the table."""
+    """All rows, in the order of the table."""
     with open(TABLE, encoding="utf-8") as table:
         text = re.sub(r"^\s*//.*$", "", table.read(), flags=re.MULTILINE)
     group = ""
