@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the paper finds, held against the numbers of this run."""
+"""Findings of the paper, compared with the numbers of this run."""
 
 import math
 
@@ -42,8 +42,8 @@ def subselection(results):
     times = [results.basin(method).milliseconds.mean() for method in (MI_8, MI_ALL)]
     verdict = HOLDS if abs(gap) <= max(half, 0.02) else FAILS
     return Finding(
-        "Pixel subselection costs nothing in convergence", verdict,
-        "all pixels gain %+.1f ± %.1f points and take %.1f ms for each %.1f ms" % (
+        "Pixel selection does not reduce convergence", verdict,
+        "all pixels: %+.1f ± %.1f points, %.1f ms instead of %.1f ms" % (
             100 * gap, 100 * half, times[1], times[0]))
 
 
@@ -57,7 +57,7 @@ def optimiser(results):
     fastest = min(merit["lbfgs"][1], merit["lbfgs_differences"][1])
     verdict = HOLDS if newton[0] >= best and newton[1] < fastest else FAILS
     return Finding(
-        "L-BFGS is worse than Newton in accuracy and time", verdict,
+        "L-BFGS is less accurate and slower than Newton", verdict,
         "converged: Newton %s, L-BFGS %s with the same gradient, %s with differences; "
         "median %.1f, %.1f and %.1f ms" % (
             percent(newton[0]), percent(merit["lbfgs"][0]), percent(merit["lbfgs_differences"][0]),
@@ -73,7 +73,7 @@ def static_light(results, case, kind, start):
     evidence = "; ".join("%s %.2f mm (largest %.1f)" % (
         method.title, 1e3 * mean[method.key], 1e3 * largest[method.key])
         for method in plans.PAPER_METHODS)
-    return Finding("SSD fails under %s where MI holds, started %s" % (case.upper(), start), verdict,
+    return Finding("Under %s SSD fails and MI succeeds, started %s" % (case.upper(), start), verdict,
                    "mean error: " + evidence)
 
 
@@ -85,7 +85,7 @@ def speed(results):
     cheap = total["default"] < 2 * total["hybrid"]
     return [Finding("The hybrid is closer to SSD in time than to MI", HOLDS if close else FAILS,
                     evidence),
-            Finding("mivo costs about what the hybrid costs (less than twice as much)",
+            Finding("mivo takes less than twice the time of the hybrid",
                     HOLDS if cheap else FAILS, evidence)]
 
 

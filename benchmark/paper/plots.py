@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""The figures. Lines differ by dashes and markers, so that they can be told apart in grey."""
+"""The figures. Lines differ by dashes and markers, to be distinguishable in gray."""
 
 import matplotlib
 

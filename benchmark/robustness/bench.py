@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""What the parts have in common: how sequences are filmed, methods run, and tables printed."""
+"""Common to all parts: rendering sequences, running methods, printing tables."""
 
 import os
 import sys
@@ -53,7 +53,7 @@ class Bench:
         self.say(table(head, rows).rstrip("\n"))
 
     def trackers(self):
-        """Of the methods that are compared those that say what they think of a frame."""
+        """Of the compared methods those that report a state for each frame."""
         return [method for method in self.methods if METHODS[method][0] == "run_sequence"]
 
     def folder(self, name):
@@ -73,7 +73,7 @@ class Bench:
     def recordings(self):
         found = sequences.find_recordings("groundtruth.txt")
         if not found:
-            print("recordings are left out: MIVO_DATA names no folder", file=sys.stderr)
+            print("recordings are skipped: MIVO_DATA is not set", file=sys.stderr)
         return [found[name] for name in RECORDINGS if name in found]
 
     def relit(self, source, light):

@@ -1,6 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Noise against noise, which no method may take for a view of the same; and good pairs, which none
-may refuse."""
+"""Unrelated noise images, which no method may accept, and good pairs, which none may reject."""
 
 import os
 
@@ -23,8 +22,8 @@ PAIRS, QUICK_PAIRS = 50, 5
 DEPTH_MM = 2000
 HEAD = ["noise", "size", "method", "mi_bins", "photometric_model", "pairs", "accepted"]
 TEXT = f"""
-{PAIRS} images of noise against a first one, white or smoothed by a Gaussian of {SMOOTH_SIGMA["smooth"]:.0f} pixels, with a flat
-depth that is not compared (`geometric_term: false`). Accepted: called tracking or degraded."""
+{PAIRS} noise images against a first one, white or smoothed by a Gaussian of {SMOOTH_SIGMA["smooth"]:.0f} pixels, with constant depth that is
+not aligned (`geometric_term: false`). Accepted: state tracking or degraded."""
 
 
 def chance(bench):
@@ -37,7 +36,7 @@ def chance(bench):
         rows += [row_of(bench, folder, kind, size, *settings) for settings in all_settings(bench)]
         progress.step(f"{kind} {size[0]}")
     progress.close()
-    bench.say_table("Noise against noise", HEAD, rows, TEXT)
+    bench.say_table("Unrelated noise images", HEAD, rows, TEXT)
     good_pairs(bench)
 
 

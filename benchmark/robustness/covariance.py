@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Error of each pose, the first being true, over the covariance that is claimed for it."""
+"""NEES: error of each pose, relative to the true first one, over its reported covariance."""
 
 import numpy as np
 
@@ -18,7 +18,7 @@ def covariance(bench):
             rows.append([f"{scene}{seed} {path}"] + summary(ratios) + [bench.wrong(figures, folder)])
     rows.append(["all"] + summary(every) + [""])
     bench.say_table("Covariance: NEES / 6",
-                    ["sequence", "mean", "median", "95 %", "wrong and called tracking"], rows)
+                    ["sequence", "mean", "median", "95 %", "undetected errors"], rows)
 
 
 def summary(ratios):

@@ -34,11 +34,11 @@ def darkness(bench):
     progress.close()
     bench.say_table("Darkness: RPE over 1 s, m deg",
                     ["sequence", "dark"] + bench.methods +
-                    ["mivo: wrong and called tracking", "without depth: 5 frames later"], rows)
+                    ["mivo: undetected errors", "without depth: 5 frames later"], rows)
 
 
 def after_darkness(bench, folder):
-    """The same without depth in the dark: pose error 5 frames after the light is back."""
+    """The same without depth in the dark: pose error 5 frames after the light has returned."""
     first = (bench.frames - DARK_FRAMES) // 2
     bare = events.without_depth(folder + "_without_depth", folder, first, DARK_FRAMES)
     frames = read_frames(bench.run("mivo", bare)["base"], bare)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Scenes that leave directions of motion open: is what is said of the poses true?"""
+"""Scenes that leave directions of motion open: are states and covariances true?"""
 
 import collections
 
@@ -37,15 +37,15 @@ SEEDS = range(1, 11)
 FRAMES, QUICK_FRAMES = 120, 30
 AFTER_TEXTURE_FRAMES = 180  # until the picture is out of sight
 FAR_M, FAR_DEG = 0.05, 3.0
-HEAD = ["scene", "method", "tracking", "degraded", "lost", "initialising", "far wrong and tracking",
-        "within 3 sigma, worst axis", "NEES / 6", "seen: median mm deg", "seen: 95 % mm deg"]
+HEAD = ["scene", "method", "tracking", "degraded", "lost", "initialising", "undetected gross errors",
+        "within 3 sigma, worst axis", "NEES / 6", "constrained: median mm deg", "constrained: 95 % mm deg"]
 TEXT = f"""
 {len(SEEDS)} seeds each, `--trajectory slide`, {SMALL[1]} x {SMALL[3]}. "At once": textured until frame 20 and from frame 80 on;
-"after texture": a picture goes out of sight; "dark": nearly no light for 20 frames in the middle. All
-errors are those of measured poses, the first of them being true. "Far wrong": more than {100 * FAR_M:.0f} cm or
-{FAR_DEG:.0f} deg. "Within 3 sigma": share of the frames whose error along an axis of the camera (or about it)
-is within three times what is claimed, for the axis where it is smallest. "Seen": what is left of the
-error without the motion that the scene leaves open."""
+"after texture": a picture leaves the view; "dark": nearly no light for 20 frames in the middle. Errors are
+those of measured poses relative to the first. "Undetected gross errors": state tracking with an error of more
+than {100 * FAR_M:.0f} cm or {FAR_DEG:.0f} deg. "Within 3 sigma": fraction of the frames whose error along or about an axis of the camera
+is within three standard deviations, for the worst axis. "Constrained": error without its component along the
+open directions."""
 
 Judged = collections.namedtuple("Judged", "states far within nees seen")
 

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Sequences in which something happens, put together from the frames of others."""
+"""Sequences with events, composed of the frames of other sequences."""
 
 import os
 import shutil

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Frames called lost though the camera moved as before and the light was good."""
+"""Frames reported as lost although motion and light were ordinary."""
 
 import os
 
@@ -10,13 +10,13 @@ from measuring.progress import Progress
 
 STARTS = range(0, 25)
 LEAST_FRAMES = 15  # of a run
-HEAD = ["sequences", "runs", "frames", "lost", "false losses", "share", "wrong and called tracking",
+HEAD = ["sequences", "runs", "frames", "lost", "false losses", "share", "undetected errors",
         "runs with such"]
 TEXT = f"""
 A loss is false when the frames before and after it are measured, their poses differ by less than
-{judging.ORDINARY_STEPS:.0f} times the median step of up to {judging.NEIGHBOURS} neighbours on each side for each frame between, and the lost image
-has a mean of {judging.LIT_MEAN:.0f} grey levels and a deviation of {judging.LIT_DEVIATION:.0f} at least. Recordings are run from each of
-{len(STARTS)} starting frames; where nothing is said of wrong frames there is no truth."""
+{judging.ORDINARY_STEPS:.0f} times the median step (of up to {judging.NEIGHBOURS} neighbors on each side) per frame in between, and the lost image has
+a mean of at least {judging.LIT_MEAN:.0f} gray levels and a deviation of at least {judging.LIT_DEVIATION:.0f}. Recordings are run from each of {len(STARTS)}
+starting frames. An empty cell means that there is no ground truth."""
 
 
 def count(bench):

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Time without frames while the camera was moving: how far does a pose run away?"""
+"""Periods without frames while the camera moves: how far is a pose extrapolated?"""
 
 import numpy as np
 
@@ -10,14 +10,14 @@ from measuring.tracks import MEASURED
 GAPS_S = [0.5, 2.0, 10.0, 60.0, 600.0]
 KINDS = ["elsewhere", "covered", "goes on"]
 FRAMES, QUICK_FRAMES = 60, 30
-VELOCITY_SECONDS = 0.5  # of motion is all that may be added to the last good pose
+VELOCITY_SECONDS = 0.5  # of motion may be added to the last good pose
 RATE = 30.0
 HEAD = ["gap s", "then", "m/s before", "farthest pose m", "allowed m", "tracking", "degraded", "lost"]
 TEXT = f"""
-A camera moves along a wall; frames are missing for a while. What comes then is another place, a covered
-lens, or the way goes on where it was left. "Farthest pose": from the last measured one, of poses that
-are not measured themselves or start a new segment; allowed are {VELOCITY_SECONDS} s at the greatest of the last five
-speeds, and a millimetre. States are those of the frames after the gap."""
+A camera moves along a wall and frames are missing for a period. Then follow another place, a covered lens, or
+the continuation of the motion. "Farthest pose": largest distance from the last measured pose to a pose that is
+not measured or starts a new segment; allowed are {VELOCITY_SECONDS} s at the largest of the last five speeds plus 1 mm.
+States are those of the frames after the gap."""
 
 
 def gaps(bench):

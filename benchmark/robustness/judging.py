@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Whether what a run said of its frames is true."""
+"""Whether the states and covariances that a run reports are true."""
 
 import os
 
@@ -17,22 +17,20 @@ FAR_WRONG_M, FAR_WRONG_DEG = 0.10, 5.0
 WRONG_M, WRONG_DEG, WRONG_SHARE, WRONG_SIGMA = 0.003, 0.1, 0.02, 5.0
 # The truth of a recording errs, too: there a motion must stand out of the run's own errors.
 STANDS_OUT = 5.0
-# What a camera does between two frames ordinarily, in median steps of its neighbours.
+# Ordinary motion between two frames, in median steps of the neighboring frames.
 ORDINARY_STEPS, NEIGHBOURS = 3.0, 10
 LEAST_STEP_M, LEAST_STEP_DEG = 0.001, 0.05
 LIT_MEAN, LIT_DEVIATION = 30.0, 10.0  # grey levels
 
 WRONG_TEXT = f"""
-"Wrong and called tracking": frames called tracking whose motion from the measured frame before them
-(of the same segment) is wrong by more than {1e3 * WRONG_M:.0f} mm and {100 * WRONG_SHARE:.0f} % of its length, or by more than {WRONG_DEG} deg and
-{100 * WRONG_SHARE:.0f} % of its angle, and beyond {WRONG_SIGMA:.0f} sigma: the length of the error in translation (or rotation) over its
-covariance, which is the sum of both frames' `alignment_covariance` in the statistics. A frame that
-comes back from a wrong pose counts, too. Of recordings, whose truth errs, the error must also be
-{STANDS_OUT:.0f} times the run's median one."""
+"Undetected errors": frames with state tracking whose motion since the previous measured frame of the segment is wrong
+by more than {1e3 * WRONG_M:.0f} mm and {100 * WRONG_SHARE:.0f} % of its length, or by more than {WRONG_DEG} deg and {100 * WRONG_SHARE:.0f} % of its angle, and by more than {WRONG_SIGMA:.0f} sigma
+of the sum of both frames' `alignment_covariance`. A frame that returns from a wrong pose counts as well. For
+recordings, whose ground truth has errors, the error must also exceed {STANDS_OUT:.0f} times the run's median."""
 
 
 def far_wrong(frames):
-    """Frames called tracking whose pose against the keyframe is not even roughly right."""
+    """Frames with state tracking and a grossly wrong pose relative to the keyframe."""
     keyframe_of, made, wrong = {}, 0, []
     for frame in frames:
         keyframe = keyframe_of.get(int(frame.row["keyframe"]))
@@ -57,19 +55,19 @@ def motion_pairs(frames):
 
 
 def motion_error(before, now):
-    """What is left of the true motion when the estimated one is taken away, in the axes of `now`."""
+    """Error of the estimated motion, in the axes of `now`."""
     return motion(motion(before.pose, now.pose), motion(before.truth, now.truth))
 
 
 def motion_covariance(before, now):
-    """Of that error: both frames are aligned with a keyframe independently of each other."""
+    """Covariance of that error: both frames are aligned with a keyframe independently."""
     back = adjoint(motion(now.pose, before.pose))
     return covariance_of(now.row, "alignment_covariance") + \
         back @ covariance_of(before.row, "alignment_covariance") @ back.T
 
 
 def wrong_motions(frames, is_recording=False):
-    """Frames that are called tracking although their motion from the one before is wrong."""
+    """Frames with state tracking whose motion since the previous one is wrong."""
     pairs = motion_pairs(frames)
     errors = [motion_error(*pair) for pair in pairs]
     sizes = np.array([size(error) for error in errors]).reshape(-1, 2)
@@ -92,8 +90,8 @@ def is_wrong(before, now, error, usual):
 
 
 def false_losses(frames, colour_of):
-    """Frames called lost between two measured ones whose poses differ by an ordinary motion, and
-    that show something. colour_of(stamp) is the path of the colour image."""
+    """Frames reported as lost between two measured ones whose poses differ by an ordinary motion,
+    and whose image is not dark. colour_of(stamp) is the path of the colour image."""
     good = [i for i, frame in enumerate(frames)
             if frame.state in ("tracking", "degraded") and frame.pose is not None]
     steps = {a: size(motion(frames[a].pose, frames[b].pose))

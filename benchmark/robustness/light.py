@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""RPE over 1 s under each light, and its ratio to constant light."""
+"""RPE over 1 s under each lighting, and its ratio to constant light."""
 
 import os
 
@@ -36,7 +36,7 @@ def light(bench):
                                  default=None)
         progress.step(f"{name} {lamps}")
     progress.close()
-    wrong = ["mivo: wrong and called tracking"] if default else []
+    wrong = ["mivo: undetected errors"] if default else []
     bench.say_table("Light: RPE over 1 s, m deg", ["sequence", "light"] + bench.methods + wrong, rows,
                     judging.WRONG_TEXT)
     judge_light(bench, default, peers)
@@ -63,5 +63,5 @@ def judge_light(bench, default, peers):
     shares = [default[key][1][0] / peer for key, peer in peers.items() if peer and
               default[key][0] == "generated"]
     if shares:
-        bench.say(f"generated: at most {max(shares):.3f} of OpenCV's better one, median "
+        bench.say(f"generated: at most {max(shares):.3f} of the better one of OpenCV, median "
                   f"{quantile(shares, 0.5):.3f}")

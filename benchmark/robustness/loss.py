@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Frames called tracking that are not, good frames called lost, recovery."""
+"""Wrong frames reported as tracking, good frames reported as lost, recovery."""
 
 import os
 
@@ -11,7 +11,7 @@ from measuring.tracks import measured, read_frames
 from measuring.trajectories import difference
 
 HEAD = ["sequence", "event", "tracking", "degraded", "lost", "wrong but tracking",
-        "wrong and called tracking", "frames until recovered"]
+        "undetected errors", "frames until recovered"]
 
 
 def loss(bench):

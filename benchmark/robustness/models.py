@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Why local contrast normalisation: the same tracker on it, on intensities, and on other maps of
-the images, which are made beforehand."""
+"""Comparison of photometric models: the same tracker on local contrast normalization, on raw
+intensities, and on images mapped beforehand."""
 
 import collections
 import os
@@ -15,12 +15,12 @@ AS_THEY_ARE = {"photometric_model": "none"}
 # the default.
 MODELS = [
     ("intensities as they are", None, AS_THEY_ARE),
-    ("histogram equalised", image_maps.equalised, AS_THEY_ARE),
+    ("histogram equalized", image_maps.equalised, AS_THEY_ARE),
     ("gain and bias of the frame", image_maps.gain_and_bias, AS_THEY_ARE),
     ("local mean removed", image_maps.local_mean_removed, AS_THEY_ARE),
     ("gradient magnitude", image_maps.gradient_magnitude, AS_THEY_ARE),
-    ("rank among neighbours", image_maps.rank, AS_THEY_ARE),
-    ("locally normalised image", image_maps.locally_normalised, AS_THEY_ARE),
+    ("rank among neighbors", image_maps.rank, AS_THEY_ARE),
+    ("locally normalized image", image_maps.locally_normalised, AS_THEY_ARE),
     ("lcn, the default", None, {}),
     ("intensities, mi on all levels", None, {"method": "mi", **AS_THEY_ARE}),
     ("lcn, mi on all levels", None, {"method": "mi"}),
@@ -32,6 +32,7 @@ FILMED_LIGHT = ["constant", "ramp_step", "moving_lamp", "left_right", "auto_expo
 RELIT = ["constant", "ramp_step", "spot", "gamma", "auto_exposure"]
 FEW = 2  # lights of a quick run
 EVERY = 3  # of its models only so many: both kinds of map, and of parameters
+TITLE = {"filmed": "synthetic", "recordings": "recordings"}
 HEAD = ["what is compared", "constant light", "changing light", "worst sequence", "lost frames"]
 
 # What a run gave, and of which sequence.
@@ -51,7 +52,7 @@ def tables(bench):
             runs.append(Run(kind, model[0], sequence, light, *rpe(figures), int(figures["lost"])))
             progress.step(f"{sequence} {light}, {model[0]}")
     progress.close()
-    return [(f"What is compared, {kind}: RPE over 1 s, m deg", HEAD,
+    return [(f"What is compared, {TITLE[kind]}: RPE over 1 s, m deg", HEAD,
              rows_of([one for one in runs if one.kind == kind]))
             for kind in dict.fromkeys(task[0] for task in tasks)]
 

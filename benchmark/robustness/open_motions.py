@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Motions that the scenes of one surface leave open, and what is left of an error without them."""
+"""Motions that single surfaces leave open, and the error without its component along them."""
 
 import numpy as np
 

@@ -1,11 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: BSD-3-Clause
-"""How mivo, the paper's methods and OpenCV's odometries stand light, darkness, loss and rest.
+"""Robustness of mivo, the paper's methods and OpenCV's odometries to light, darkness and loss.
 
     scripts/benchmark robustness [--quick] [--document] [--only PART]... [--methods NAME]...
 
-Films and relights what it needs, runs every method over it and prints the tables of
-doc/robustness.md. What is filmed already is kept, what was run by the same program too.
+Renders and relights the sequences, runs every method on them and prints the tables of
+doc/robustness.md. Sequences and runs are reused when neither input nor program has changed.
 """
 
 import argparse

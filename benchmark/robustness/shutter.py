@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Whether the read-out time is found where there is one, and stays nought where there is none."""
+"""Estimation of the read-out time, with a rolling and a global shutter."""
 
 from measuring import sequences
 from measuring.progress import Progress
@@ -12,14 +12,13 @@ READOUT_S = 0.02
 HEAD = ["sequence", "global: found, longest ms", "rolling: found ms",
         "RPE global", "RPE rolling: found", "given", "ignored"]
 TEXT = f"""
-Ten seeds, each filmed with all rows at once and with {1e3 * READOUT_S:.0f} ms from the first row to the last; scenes
-and paths take turns. The read-out time that the odometry finds by itself at the end of each, and the
-longest that it believed in on the way where there is none. RPE over 1 s in m, of all frames: those
-before the estimate is made, too."""
+Ten seeds, each rendered with a global shutter and with {1e3 * READOUT_S:.0f} ms from the first row to the last; scenes and
+paths alternate. "found": estimate of the read-out time at the end; "longest": largest estimate during the
+run. RPE over 1 s in m of all frames, including those before the estimate is available."""
 
 
 def film(bench, seed, readout):
-    """A sharp and quickly filmed sequence: the shutter is what matters."""
+    """A sequence without blur that renders quickly."""
     scene, path = SCENES[seed % 3], PATHS[seed // 3 % 3]
     name = f"shutter{seed}_{scene}_{path}_{1000 * readout:.0f}_{bench.frames}"
     return sequences.generate(bench.programs, bench.folder(name), "--frames", bench.frames,
@@ -28,7 +27,7 @@ def film(bench, seed, readout):
 
 
 def longest(figures):
-    """Longest read-out time that was believed in during a run, ms."""
+    """Largest estimate of the read-out time during a run, ms."""
     return 1e3 * max(column(read_rows(figures["base"] + ".csv"), "rolling_shutter_readout"))
 
 

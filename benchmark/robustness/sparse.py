@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Scenes of even colours and few edges, at 0.3 to 3 degrees a frame."""
+"""Scenes of even colors and few edges, at 0.3 to 3 degrees per frame."""
 
 import collections
 
@@ -15,12 +15,12 @@ SEEDS = range(1, 21)
 FRAMES, QUICK_FRAMES = 60, 15
 SLOWEST, FASTEST = 0.3, 2.5  # paces; a rotation at pace 1 turns by 0.67 to 1.33 deg a frame
 GOLDEN_RATIO = 0.618034
-HEAD = ["scene", "method", "frames", "wrong and called tracking", "lost", "false losses", "degraded",
-        "degraded though right"]
+HEAD = ["scene", "method", "frames", "undetected errors", "lost", "false losses", "degraded",
+        "degraded though correct"]
 TEXT = f"""
-{len(SEEDS)} seeds each, {FRAMES} frames of {SMALL[1]} x {SMALL[3]}; rotation and figure of eight take turns, at {SLOWEST} to {FASTEST}
-times their pace: 0.2 to 3.3 degrees a frame. "Degraded though right": the motion since the frame before
-is right within {1e3 * WRONG_M:.0f} mm."""
+{len(SEEDS)} seeds each, {FRAMES} frames of {SMALL[1]} x {SMALL[3]}; rotation and figure of eight alternate, at {SLOWEST} to {FASTEST}
+times their speed: 0.2 to 3.3 degrees per frame. "Degraded though correct": the motion since the previous
+frame is correct within {1e3 * WRONG_M:.0f} mm."""
 
 
 def sparse(bench):
@@ -60,4 +60,4 @@ def count(frames, folder):
     return {"frames": len(frames), "wrong and called tracking": len(wrong_motions(frames)),
             "lost": states["lost"],
             "false losses": len(false_losses(frames, colour_by_stamp(folder))),
-            "degraded": states["degraded"], "degraded though right": len(right)}
+            "degraded": states["degraded"], "degraded though correct": len(right)}

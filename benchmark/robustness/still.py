@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""A camera that stands still."""
+"""A camera at rest."""
 
 import numpy as np
 
@@ -26,7 +26,7 @@ def static(bench):
 
 
 def rest(bench):
-    """Rms about the mean."""
+    """RMS deviation from the mean."""
     rows = []
     for scene, seed in bench.scenes:
         for lamps in ("constant", "oscillating"):
@@ -40,5 +40,5 @@ def rest(bench):
             rows.append([f"{scene}{seed}", lamps, f"{1e3 * rms:.3f}",
                          f"{np.degrees(np.sqrt(np.mean(np.square(angles)))):.4f}",
                          bench.wrong(figures, folder)])
-    bench.say_table("Standing still",
-                    ["scene", "light", "rms mm", "rms deg", "wrong and called tracking"], rows)
+    bench.say_table("Camera at rest",
+                    ["scene", "light", "rms mm", "rms deg", "undetected errors"], rows)

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSD-3-Clause
-"""Tables in Markdown of what was measured."""
+"""Markdown tables of the measurements."""
 
 from measuring.methods import PEERS
 from measuring.statistics import column, quantile
@@ -24,7 +24,7 @@ def stage_table(measured):
         lines.append([name] + ["%.2f" % quantile(values, share) for share in (0.5, 0.95, 1.0)])
     keyframes = [row["ms_keyframe"] for row in measured["rows"]["default"] if row["ms_keyframe"] > 0]
     if keyframes:
-        lines.append(["half a keyframe, where one is made (%d of %d frames)"
+        lines.append(["half of a keyframe, in frames that create or complete one (%d of %d)"
                       % (len(keyframes), len(measured["rows"]["default"]))]
                      + ["%.2f" % quantile(keyframes, share) for share in (0.5, 0.95, 1.0)])
     return table(["stage", "median ms", "p95 ms", "max ms"], lines)
