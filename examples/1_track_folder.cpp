@@ -30,7 +30,7 @@ int main(int argc, char** argv) {
         std::cerr << "skipped: " << fault.text << "\n";
         continue;
       }
-      // The pose of the colour camera in the world, which is the first camera's pose.
+      // The pose of the color camera in the world, which is the first camera pose.
       const mivo::TrackingResult& result = odometry.process(frame);
       if (!result.isMeasured()) continue;
       writer.write({result.stamp, result.T_odom_camera});

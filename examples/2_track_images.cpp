@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Tracks images that a loop gets from OpenCV, here from two folders of files sorted by name, and
-// says how sure each pose is. A loop over cv::VideoCapture looks the same.
-//   2_track_images COLOUR_FOLDER DEPTH_FOLDER FX FY CX CY      depth: 16 bits, millimetres,
-//   registered
+// Tracks images loaded by OpenCV, here from two folders of files sorted by name, and prints the
+// standard deviation of each pose. A loop over cv::VideoCapture looks the same.
+//   2_track_images COLOR_FOLDER DEPTH_FOLDER FX FY CX CY
+// Depth: 16 bits, millimeters, registered to color.
 #include <mivo/core/error.h>
 #include <mivo/core/odometry.h>
 
@@ -12,7 +12,7 @@
 
 int main(int argc, char** argv) {
   if (argc != 7) {
-    std::cerr << "usage: 2_track_images COLOUR_FOLDER DEPTH_FOLDER FX FY CX CY\n";
+    std::cerr << "usage: 2_track_images COLOR_FOLDER DEPTH_FOLDER FX FY CX CY\n";
     return 2;
   }
   try {
@@ -32,14 +32,14 @@ int main(int argc, char** argv) {
                                   mivo::Distortion{}};
         odometry = std::make_unique<mivo::Odometry>(camera, mivo::Parameters());
       }
-      const double stamp = static_cast<double>(i) / 30.0;  // s; of a camera: when it was taken
+      const double stamp = static_cast<double>(i) / 30.0;  // s; use the camera's time stamp
       const mivo::TrackingResult& result =
           odometry->process({stamp, mivo::toGrey(image, mivo::ChannelOrder::kBgr), depth, 0.001});
-      if (!result.isMeasured()) {  // lost or refused: the pose is a guess, do not steer by it
+      if (!result.isMeasured()) {  // lost or refused: the pose is a guess, do not use it
         std::cout << i << " " << toString(result.state) << ": " << describeReason(result) << "\n";
         continue;
       }
-      // Standard deviation of the position in the axes of the camera, and of the rotation.
+      // Standard deviations of position and rotation, in the axes of the camera.
       const mivo::Vector6 sigma = result.covariance.diagonal().cwiseSqrt();
       std::cout << i << " " << toString(result.state) << " segment " << result.segment << " at "
                 << result.T_odom_camera.translation().transpose() << " m, sigma "

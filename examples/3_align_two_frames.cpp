@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Aligns two frames of a folder, says how the camera moved between them, and writes what the images
-// still differ by.
+// Aligns two frames of a folder, prints the motion of the camera between them, and writes the
+// residual image.
 //   3_align_two_frames FOLDER FIRST SECOND RESIDUAL.png
 #include <mivo/core/error.h>
 #include <mivo/core/odometry.h>
@@ -33,14 +33,14 @@ int main(int argc, char** argv) {
     const mivo::TrackingResult& result = odometry.process(readFrame(folder, std::stoul(argv[3])));
 
     const Eigen::AngleAxisd rotation(result.T_odom_camera.linear());
-    std::cout << toString(result.state) << ": moved by "
-              << result.T_odom_camera.translation().transpose() << " m, turned by "
+    std::cout << toString(result.state) << ": translation "
+              << result.T_odom_camera.translation().transpose() << " m, rotation "
               << rotation.angle() << " rad\n";
-    const cv::Mat residual = odometry.residualImage();  // 128: the same grey in both
+    const cv::Mat residual = odometry.residualImage();  // 128: both images agree
     std::cout << "mean difference "
               << cv::norm(residual, cv::Mat(residual.size(), residual.type(), 128), cv::NORM_L1) /
                      static_cast<double>(residual.total())
-              << " grey levels\n";
+              << " gray levels\n";
     if (!cv::imwrite(argv[4], residual)) throw mivo::Error("cannot write " + std::string(argv[4]));
   } catch (const std::exception& error) {
     std::cerr << error.what() << "\n";
