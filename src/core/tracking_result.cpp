@@ -22,7 +22,7 @@ const char* toString(TrackingReason reason) {
     case TrackingReason::kNone:
       return "none";
     case TrackingReason::kInvalidFrame:
-      return "frame does not fit the camera";
+      return "frame does not match the camera";
     case TrackingReason::kStaleStamp:
       return "stamp is not newer than that of the frame before";
     case TrackingReason::kTooFewPoints:
@@ -32,11 +32,11 @@ const char* toString(TrackingReason reason) {
     case TrackingReason::kNothingInCommon:
       return "image has nothing in common with the keyframe";
     case TrackingReason::kOpenDirections:
-      return "no view of some directions of motion";
+      return "motion is not observable in some directions";
     case TrackingReason::kAmbiguous:
-      return "two poses explain the image alike";
+      return "two poses explain the image equally well";
     case TrackingReason::kImplausibleMotion:
-      return "motion faster than the limits";
+      return "motion exceeds lost_speed or lost_turn_rate";
     case TrackingReason::kNotFinite:
       return "alignment diverged";
   }
@@ -58,7 +58,7 @@ std::string describeReason(const TrackingResult& result) {
   if (result.reason != TrackingReason::kOpenDirections || names.empty()) {
     return toString(result.reason);
   }
-  return "no view of motion" + names;
+  return "motion is not observable:" + names;
 }
 
 }  // namespace mivo

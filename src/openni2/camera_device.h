@@ -17,8 +17,8 @@ constexpr int kStreamKinds = 2;
 
 const char* toString(StreamKind kind);  ///< colour, depth
 
-/// An image as the driver delivered it. The memory belongs to the driver and is valid only inside
-/// of the callback that gets it: copy what is to be kept.
+/// An image of the driver. The memory belongs to the driver and is valid during the callback only:
+/// copy the pixels to keep them.
 struct ImageView {
   StreamKind kind = StreamKind::kColor;
   const std::uint8_t* data = nullptr;  ///< colour: RGB, 8 bits each; depth: 16 bits, 0: no reading
@@ -30,7 +30,7 @@ struct ImageView {
   int index = 0;                       ///< counts frames; a gap is a dropped frame
 };
 
-/// Settings of the colour camera. An absent value is left alone (when set) or not known (when
+/// Settings of the colour camera. An absent value is not changed (when set) or not known (when
 /// read).
 struct CameraSettings {
   std::optional<bool> auto_exposure;
@@ -47,12 +47,12 @@ inline bool operator!=(const CameraSettings& a, const CameraSettings& b) {
 /// "auto exposure off, exposure 30"; for messages.
 std::string toString(const CameraSettings& settings);
 
-/// Names each value that was asked for and that the camera does not have; empty when it obeyed.
+/// Lists each requested value that the camera did not accept; empty if it accepted all.
 std::string disobeyed(const CameraSettings& asked, const CameraSettings& actual);
 
-/// Which camera, and how it shall deliver.
+/// Requested camera and mode.
 struct DeviceRequest {
-  /// Empty or "any"; "#1" for the first device; a serial number; an URI of OpenNI2; or the path of
+  /// Empty or "any"; "#1" for the first device; a serial number; an OpenNI2 URI; or the path of
   /// a recording (.oni).
   std::string address;
   int width = 640;            ///< pixels, of both images
@@ -60,8 +60,8 @@ struct DeviceRequest {
   int rate = 30;              ///< Hz
   double depth_unit = 0.001;  ///< metres: 0.001 or 0.0001
   bool registration = true;   ///< depth registered to colour by the device
-  bool synchronise = true;    ///< colour and depth exposed together, where the device can
-  bool repeat = false;        ///< a recording starts anew at its end
+  bool synchronise = true;    ///< expose colour and depth together, if the device supports it
+  bool repeat = false;        ///< play a recording in a loop
 };
 
 struct DeviceDescription {
@@ -72,7 +72,7 @@ struct DeviceDescription {
   bool has_camera_settings = false;
   double color_field_of_view = 0.0;  ///< horizontal, rad; 0: not known
   double depth_field_of_view = 0.0;  ///< horizontal, rad; 0: not known
-  /// What the device refused and can be lived without, one line each.
+  /// Nonessential settings that the device rejected, one line each.
   std::vector<std::string> notes;
 };
 
@@ -83,21 +83,22 @@ class CameraDevice {
 
   virtual const DeviceDescription& description() const = 0;
 
-  /// Starting what runs and stopping what stands is allowed and does nothing.
+  /// Starting a running stream or stopping a stopped one has no effect.
   virtual void start(StreamKind kind) = 0;
   virtual void stop(StreamKind kind) = 0;
 
   /// False once the device was unplugged; never waits.
   virtual bool isConnected() const = 0;
 
-  /// Hands the next image of the running streams to the callback. False: none came in this time.
+  /// Passes the next image of the running streams to the callback. False: none arrived within this
+  /// time.
   virtual bool read(std::chrono::milliseconds timeout,
                     const std::function<void(const ImageView&)>& callback) = 0;
 
-  /// Sets what is given. Devices forget it unless the colour stream runs and has delivered.
+  /// Applies the given values. Devices ignore them unless the colour stream has delivered an image.
   virtual void applySettings(const CameraSettings& settings) = 0;
 
-  /// What the device says it has now.
+  /// Current values reported by the device.
   virtual CameraSettings settings() const = 0;
 };
 

@@ -20,9 +20,9 @@ void GuardedListener::failed(const std::string& fault) {
   }
   fault_ = fault;
   try {
-    listener_.onMessage(Severity::kError, "What the camera delivers cannot be used: " + fault);
+    listener_.onMessage(Severity::kError, "Cannot use the data of the camera: " + fault);
   } catch (const std::exception& error) {
-    fault_ = error.what();  // nothing but fault() is left to say it
+    fault_ = error.what();  // only fault() can report it now
   }
 }
 

@@ -10,13 +10,13 @@ namespace mivo {
 
 enum class Severity { kInfo, kWarning, kError };
 
-/// Hears what a CameraSession does, in the thread that calls CameraSession::step.
+/// Receives events of a CameraSession in the thread that calls CameraSession::step.
 class CameraListener {
  public:
   virtual ~CameraListener() = default;
   /// @param stamp host time at which the image was taken, ns
   virtual void onImage(const ImageView& image, std::int64_t stamp) = 0;
-  /// Something changed that the user should read: one line, once per change.
+  /// A message for the user: one line, once per change.
   virtual void onMessage(Severity severity, const std::string& line) = 0;
   /// A device was opened.
   virtual void onDevice(const DeviceDescription& device) = 0;
@@ -24,8 +24,8 @@ class CameraListener {
   virtual void onSettings(const CameraSettings& settings) = 0;
 };
 
-/// Hands everything on to another listener. What that one throws is no fault of the camera, which
-/// goes on: it is told as an error, once until it changes, and kept.
+/// Forwards events to another listener and catches its exceptions, so that the camera continues. An
+/// exception is reported as an error, once until it changes, and stored.
 class GuardedListener : public CameraListener {
  public:
   explicit GuardedListener(CameraListener& listener) : listener_(listener) {}

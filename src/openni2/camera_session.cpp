@@ -11,7 +11,7 @@ namespace {
 constexpr std::array<StreamKind, kStreamKinds> kKinds{StreamKind::kColor, StreamKind::kDepth};
 
 // A stream counts as slow below the first fraction of the rate it should have, and as recovered
-// above the second: in between lies what a dropped image now and then does.
+// above the second. The gap between them tolerates single dropped images.
 constexpr double kSlowFraction = 0.8;
 constexpr double kFastFraction = 0.9;
 
@@ -50,7 +50,7 @@ CameraSession::CameraSession(DeviceRequest request, SessionTimes times, DeviceFa
 void CameraSession::setDemand(const StreamDemand& demand) {
   demand_ = demand;
   if (status_.state == CameraState::kEnded && !demand_.any()) {
-    status_.state = CameraState::kConnecting;  // whoever subscribes next sees it from the start
+    status_.state = CameraState::kConnecting;  // the next subscriber sees it from the start
     next_attempt_ = Time();
   }
 }
@@ -68,7 +68,7 @@ std::chrono::milliseconds CameraSession::step(Time now) {
     return advance(now);
   } catch (const DeviceError& error) {
     failed(error, now);
-  } catch (const std::exception& error) {  // whatever it is: the process has other things to do
+  } catch (const std::exception& error) {  // no exception may end the process
     failed(DeviceError(DeviceFault::kUnexpected, error.what()), now);
   }
   return pause_;
@@ -121,8 +121,7 @@ void CameraSession::failed(const DeviceError& error, Time now) {
   status_.fault = error.fault();
   status_.message = error.what();
   if (is_news) {
-    listener_.onMessage(Severity::kError, status_.message +
-                                              ". Trying again by itself, at least every " +
+    listener_.onMessage(Severity::kError, status_.message + ". Retrying at least every " +
                                               seconds(times_.longest_pause));
   }
 }
@@ -130,8 +129,8 @@ void CameraSession::failed(const DeviceError& error, Time now) {
 void CameraSession::recordingEnded() {
   releaseDevice();
   status_.state = CameraState::kEnded;
-  status_.message = "The recording " + request_.address +
-                    " has ended; set repeat to true to play it again and again";
+  status_.message =
+      "The recording " + request_.address + " has ended; set repeat to true to play it in a loop";
   listener_.onMessage(Severity::kInfo, status_.message);
 }
 
@@ -185,7 +184,7 @@ void CameraSession::receive(const ImageView& image, Time now) {
   const std::int64_t arrival = host_clock_();
   Stream& stream = this->stream(image.kind);
   if (!stream.running) {
-    return;  // still under way when its stream was stopped
+    return;  // arrived after its stream was stopped
   }
   stream.last_image = now;
   stream.delivered = true;
@@ -260,8 +259,8 @@ void CameraSession::checkRate() {
       status_.slow = true;
       std::snprintf(text.data(), text.size(),
                     "The camera delivers %.1f %s images per second instead of %d: not enough USB "
-                    "bandwidth or processor time. Plug it into a controller of its own (lsusb -t), "
-                    "without a hub, or ask for less (rate, width, height)",
+                    "bandwidth or processor time. Connect it to a USB controller of its own "
+                    "(lsusb -t) without a hub, or decrease rate, width, height",
                     rate, toString(kind), request_.rate);
       status_.message = text.data();
       listener_.onMessage(Severity::kWarning, status_.message);
@@ -280,13 +279,14 @@ void CameraSession::checkRate() {
 void CameraSession::applySettings() {
   settings_pending_ = false;
   if (!status_.device.has_camera_settings) {
-    return;  // said when the device was opened
+    return;  // reported when the device was opened
   }
   device_->applySettings(wanted_settings_);
   status_.settings = device_->settings();
   const std::string difference = disobeyed(wanted_settings_, status_.settings);
   if (!difference.empty()) {
-    listener_.onMessage(Severity::kWarning, "The camera did not take all settings: " + difference);
+    listener_.onMessage(Severity::kWarning,
+                        "The camera did not accept all settings: " + difference);
   }
   listener_.onSettings(status_.settings);
 }

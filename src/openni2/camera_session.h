@@ -20,8 +20,8 @@ namespace mivo {
 enum class CameraState {
   kConnecting,  ///< about to open the device for the first time
   kWaiting,     ///< no device: tries again after a pause that doubles each time
-  kIdle,        ///< device open, nobody wants images
-  kStreaming,   ///< images come
+  kIdle,        ///< device open, no subscribers
+  kStreaming,   ///< delivering images
   kEnded        ///< the recording has been played
 };
 
@@ -33,13 +33,13 @@ struct StreamStatistics {
   std::int64_t dropped = 0;
 };
 
-/// A copy of all that can be said about the camera.
+/// Status of the camera.
 struct CameraStatus {
   CameraState state = CameraState::kConnecting;
-  std::optional<DeviceFault> fault;  ///< why it waits
+  std::optional<DeviceFault> fault;  ///< reason of waiting
   std::string message;               ///< one line for the user
   std::string listener_fault;        ///< what the listener threw last; empty: nothing
-  bool slow = false;                 ///< a stream delivers markedly less than it should
+  bool slow = false;                 ///< the rate of a stream is markedly too low
   int failures = 0;                  ///< attempts in a row that failed
   int reconnections = 0;             ///< devices opened after the first
   double clock_skew = 0.0;           ///< device clock relative to the host's, minus 1
@@ -61,16 +61,17 @@ struct SessionTimes {
   std::chrono::milliseconds first_image{5000};    ///< a stream that starts must deliver within this
   std::chrono::milliseconds next_image{2000};     ///< a running stream must deliver within this
   std::chrono::milliseconds read{50};             ///< longest wait in one step
-  std::chrono::milliseconds check{500};           ///< how often an idle device is looked after
-  /// Images of a camera that are not handed on after a stream starts: its exposure settles,
-  /// settings take effect, and the clocks' difference becomes known. Recordings lose none.
+  std::chrono::milliseconds check{500};           ///< interval of checks of an idle device
+  /// Images discarded after the start of a stream, while exposure settles, settings take effect,
+  /// and the clock offset is estimated. Recordings lose none.
   int warm_up_images = 10;
-  /// So many more at most while the clocks' difference is still falling: the machine is busy.
+  /// Maximum number of further ones while the estimate of the clock offset is still decreasing, on
+  /// a busy machine.
   int most_unsettled_images = 120;
 };
 
-/// The life of a camera: opens it, keeps the wanted streams running, stamps images, notices loss
-/// and tries again with back-off. A state machine without a thread and without a clock of its own.
+/// Session of a camera: opens it, runs the requested streams, stamps images, detects loss and
+/// retries with back-off. A state machine without a thread and clock of its own.
 class CameraSession {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -83,7 +84,7 @@ class CameraSession {
   void setDemand(const StreamDemand& demand);
   void setSettings(const CameraSettings& settings);
 
-  /// Does what is due, reading at most one image. Returns how long nothing will be due (zero: call
+  /// Performs one step, reading at most one image. Returns the time until the next step (zero: call
   /// again at once).
   std::chrono::milliseconds step(Time now);
 

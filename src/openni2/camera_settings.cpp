@@ -30,7 +30,7 @@ void appendDifference(std::string& text, const char* name, const std::optional<V
 }  // namespace
 
 const char* toString(StreamKind kind) {
-  return kind == StreamKind::kColor ? "colour" : "depth";
+  return kind == StreamKind::kColor ? "color" : "depth";
 }
 
 bool operator==(const CameraSettings& a, const CameraSettings& b) {

@@ -12,8 +12,8 @@
 
 namespace mivo {
 
-/// Runs a CameraSession in a thread of its own. Every member function returns at once: wishes are
-/// left for the thread, the status is a copy that the thread wrote.
+/// Runs a CameraSession in a thread of its own. Member functions do not block: requests are queued
+/// for the thread, the status is a copy.
 class CameraThread {
  public:
   CameraThread(DeviceRequest request, SessionTimes times, DeviceFactory factory,

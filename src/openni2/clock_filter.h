@@ -14,7 +14,7 @@ namespace mivo {
 /// minus device stamp is the clocks' difference plus a delay that is sometimes small. The
 /// difference is therefore the lower envelope of what was observed: a line under all points of the
 /// last half minute, so that a clock of another rate causes no drift and a late arrival no error.
-/// The smallest delay of all cannot be seen; it stays in the result as a constant.
+/// The minimum delay is not observable and remains in the result as a constant.
 ///
 /// For growing device stamps of a stream the result grows. A jump of either clock starts anew.
 class ClockFilter {
@@ -29,8 +29,7 @@ class ClockFilter {
   /// Forgets the clocks' difference, for another device. Results still grow.
   void reset() { started_ = false; }
 
-  /// Whether the last images brought no news of the clocks' difference, and several of them agree
-  /// on it: results are good from now on.
+  /// Whether the estimate of the clock offset has converged.
   bool isSettled() const;
 
   /// Rate of the device's clock relative to the host's, minus 1; 0 until it is known.

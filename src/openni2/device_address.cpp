@@ -49,7 +49,7 @@ void openRecording(const std::string& path, openni::Device& device) {
     throw DeviceError(DeviceFault::kWrongAddress, "There is no recording " + path);
   }
   if (access(path.c_str(), R_OK) != 0) {
-    throw DeviceError(DeviceFault::kBadRecording, "The recording " + path + " may not be read");
+    throw DeviceError(DeviceFault::kBadRecording, "The recording " + path + " is not readable");
   }
   if (device.open(path.c_str()) != openni::STATUS_OK) {
     throw DeviceError(DeviceFault::kBadRecording,
@@ -112,7 +112,7 @@ void openAddress(const OpenNi2Library& library, const std::string& address,
       return;
     }
   }
-  // A driver may know an URI that it does not list.
+  // A driver may accept a URI that it does not list.
   if (openSerial(devices, address, device) || device.open(address.c_str()) == openni::STATUS_OK) {
     return;
   }

@@ -16,7 +16,7 @@ const char* toString(DeviceFault fault) {
     case DeviceFault::kNoPermission:
       return "no permission";
     case DeviceFault::kNoColor:
-      return "no colour camera";
+      return "no color camera";
     case DeviceFault::kNoDepth:
       return "no depth camera";
     case DeviceFault::kNoRegistration:
@@ -26,7 +26,7 @@ const char* toString(DeviceFault fault) {
     case DeviceFault::kBadRecording:
       return "bad recording";
     case DeviceFault::kUsb:
-      return "USB trouble";
+      return "USB failure";
     case DeviceFault::kLost:
       return "connection lost";
     case DeviceFault::kUnexpected:
@@ -38,12 +38,12 @@ const char* toString(DeviceFault fault) {
 const char* adviceFor(DeviceFault fault) {
   switch (fault) {
     case DeviceFault::kNoDriver:
-      return "Install libopenni2-0, which brings the drivers in OpenNI2/Drivers beside the library";
+      return "Install libopenni2-0, which has the drivers in OpenNI2/Drivers beside the library";
     case DeviceFault::kNoDevice:
       return "Plug the camera in; lsusb shows it as 1d27:0600, 1d27:0601 or 1d27:0609. If it does "
              "not, try another cable or USB port";
     case DeviceFault::kWrongAddress:
-      return "Set device to 'any', '#1', a serial number, an URI from this list, or the path of an "
+      return "Set device to 'any', '#1', a serial number, a URI from this list, or the path of an "
              ".oni recording";
     case DeviceFault::kInUse:
       return "Close the other program that uses the camera (another driver node, NiViewer2)";
@@ -51,7 +51,7 @@ const char* adviceFor(DeviceFault fault) {
       return "Install the udev rules of libopenni2-0 (or see doc/xtion.md) and plug the camera in "
              "again";
     case DeviceFault::kNoColor:
-      return "Visual odometry needs colour: use a model with a colour camera (Xtion Pro Live, not "
+      return "Visual odometry needs color: use a model with a color camera (Xtion Pro Live, not "
              "Xtion Pro)";
     case DeviceFault::kNoDepth:
       return "Use a device or recording with depth";
@@ -68,7 +68,7 @@ const char* adviceFor(DeviceFault fault) {
     case DeviceFault::kLost:
       return "Check the cable and plug the camera in again";
     case DeviceFault::kUnexpected:
-      return "The device is opened again; if that does not help, please report it";
+      return "The device will be reopened; if this persists, please report it";
   }
   return "";
 }

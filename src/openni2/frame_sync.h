@@ -6,9 +6,9 @@
 namespace mivo {
 
 // Exposing colour and depth together, by the camera's own property. Not by the SDK's
-// setDepthColorSyncEnabled: with that on, whenever a stream starts or stops the SDK destroys what
-// images of the other stream are handed to, and does not look whether the driver's thread is about
-// to hand one over. Then the process ends.
+// setDepthColorSyncEnabled: with that on, starting or stopping a stream makes the SDK destroy the
+// receiver of the other stream's images without synchronizing with the driver's thread, which may
+// crash the process.
 
 bool canSynchronise(const openni::Device& device);
 

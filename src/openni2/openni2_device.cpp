@@ -184,7 +184,7 @@ class OpenNi2Device::Implementation : private openni::OpenNI::DeviceDisconnected
       stream.setMirroringEnabled(false);
       if (stream.getMirroringEnabled()) {
         note(std::string("The ") + mivo::toString(kind) + " image of " + description_.name +
-             " is mirrored and cannot be turned: do not use it for odometry");
+             " is mirrored and mirroring cannot be disabled: do not use it for odometry");
       }
     }
     openni::VideoStream& color = stream(StreamKind::kColor);
@@ -205,7 +205,9 @@ class OpenNi2Device::Implementation : private openni::OpenNI::DeviceDisconnected
     if (description_.is_recording) {
       // A recording keeps its pixels; whether they were registered is not always written into it.
       if (request.registration) {
-        note("The recording does not say that its depth is registered to colour; taken as such");
+        note(
+            "The recording does not say that its depth is registered to color; assuming that it "
+            "is");
       }
       return;
     }
@@ -214,7 +216,7 @@ class OpenNi2Device::Implementation : private openni::OpenNI::DeviceDisconnected
          handles_->device.setImageRegistrationMode(mode) != openni::STATUS_OK ||
          handles_->device.getImageRegistrationMode() != mode)) {
       throw DeviceError(DeviceFault::kNoRegistration,
-                        description_.name + " cannot register depth to colour");
+                        description_.name + " cannot register depth to color");
     }
     if (!request.registration && handles_->device.isImageRegistrationModeSupported(mode)) {
       handles_->device.setImageRegistrationMode(mode);
@@ -225,7 +227,7 @@ class OpenNi2Device::Implementation : private openni::OpenNI::DeviceDisconnected
     can_synchronise_ = request.synchronise && canSynchronise(handles_->device);
     if (request.synchronise && !can_synchronise_ && !description_.is_recording) {
       note(description_.name +
-           " does not expose colour and depth together; they are paired by time alone");
+           " does not expose color and depth together; they are paired by time alone");
     }
   }
 

@@ -28,7 +28,7 @@ class OpenNi2Library {
   OpenNi2Library();
 };
 
-/// The SDK's last words in this thread, as one line.
+/// The SDK's last error text in this thread, as one line.
 std::string sdkError();
 
 /// Words separated by single spaces, without a full stop or exclamation mark at the end.

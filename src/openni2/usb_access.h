@@ -16,7 +16,7 @@ std::optional<std::string> usbNode(const std::string& uri,
 /// Whether this process may read and write the node; true when it does not exist.
 bool mayUse(const std::string& node);
 
-/// What an open that failed means: the node's permissions first, then the SDK's text.
+/// Classifies a failure to open: by the permissions of the node, then by the SDK's text.
 DeviceFault classifyOpenFailure(const std::string& uri, const std::string& sdk_text,
                                 const std::string& usb_root = "/dev/bus/usb");
 

@@ -53,14 +53,14 @@ void run(int argc, char** argv) {
   bool force = false;
   mivo::CommandLine line(
       "bag_to_sequence",
-      "Writes the frames of a bag as a sequence folder. Depth in millimetres stays "
-      "as it is, depth in metres gets 5000 units per metre.");
+      "Converts a bag to a sequence folder. Depth in millimeters is kept, depth in "
+      "meters is converted to 5000 units per meter.");
   line.arguments(
       "BAG", &bags,
-      "a bag with colour images, depth images and camera_info; several are one recording");
-  line.argument("FOLDER", &folder, "the sequence");
+      "bag with color images, depth images and camera_info; several bags are one recording");
+  line.argument("FOLDER", &folder, "sequence folder to write");
   mivo::declareTopics(line, &topics);
-  line.options()("force", po::bool_switch(&force), "replace a sequence that is in the folder");
+  line.options()("force", po::bool_switch(&force), "replace an existing sequence");
   if (!line.parse(argc, argv)) return;
 
   mivo::BagSource source(bags, topics);

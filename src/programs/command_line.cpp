@@ -140,7 +140,7 @@ std::string CommandLine::help() const {
          << argument.text << "\n";
   }
   if (!arguments_.empty()) text << "\n";
-  text << visible_ << "\nExit code: 0 done, 1 input cannot be used, 2 wrong usage.\n";
+  text << visible_ << "\nExit code: 0 success, 1 input cannot be used, 2 wrong usage.\n";
   return text.str();
 }
 

@@ -9,8 +9,7 @@
 
 namespace mivo {
 
-/// Thrown for a command line that makes no sense: exit code 2. Input that cannot be used is an
-/// Error: exit code 1.
+/// Invalid command line: exit code 2. Unusable input is an Error: exit code 1.
 class UsageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -45,8 +44,8 @@ class CommandLine {
   /// Adds options in Boost's way: `options()("name", value<...>(...), "text")("other", ...)`.
   boost::program_options::options_description_easy_init options();
 
-  /// Reads the command line and sets the targets. Returns false when help or the version was asked
-  /// for and has been printed on stdout: nothing is left to do then. Throws UsageError.
+  /// Reads the command line and sets the targets. Returns false if --help or --version was given
+  /// and answered on stdout. Throws UsageError.
   bool parse(int argc, const char* const* argv);
 
   /// Whether an option was given (and not only has a default).

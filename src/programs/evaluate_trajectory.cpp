@@ -32,21 +32,22 @@ void run(int argc, char** argv) {
   std::string plot_path;
   mivo::EvaluationOptions options;
   bool force = false;
-  mivo::CommandLine line("evaluate_trajectory",
-                         "Compares an estimated trajectory with the truth: relative pose error and "
-                         "absolute trajectory error.");
-  line.argument("TRUTH", &truth_path, "true trajectory: TUM, EuRoC, KITTI or ROS 2 CSV");
+  mivo::CommandLine line(
+      "evaluate_trajectory",
+      "Compares an estimated trajectory with ground truth: relative pose error and "
+      "absolute trajectory error.");
+  line.argument("TRUTH", &truth_path, "ground truth: TUM, EuRoC, KITTI or ROS 2 CSV");
   line.argument("ESTIMATE", &estimate_path, "estimated trajectory, in any of these formats");
   line.options()("delta", po::value(&options.delta)->default_value(options.delta, "1"),
-                 "drift is measured over this time, seconds")(
+                 "interval of the relative pose error, seconds")(
       "delta-metres", po::value(&options.delta_metres)->default_value(options.delta_metres, "1"),
-      "and over this length of the true path, metres")(
+      "interval of the relative pose error along the true path, meters")(
       "max-time-difference",
       po::value(&options.max_time_difference)->default_value(options.max_time_difference, "0.02"),
-      "poses further apart in time than this are not compared, seconds")(
-      "json", po::value(&json_path)->value_name("FILE"), "write the figures as JSON, too")(
+      "largest difference between the stamps of compared poses, seconds")(
+      "json", po::value(&json_path)->value_name("FILE"), "also write the figures as JSON")(
       "plot", po::value(&plot_path)->value_name("FILE.png|.pdf|.svg"),
-      "draw paths and errors (needs Python with matplotlib)")("force", po::bool_switch(&force),
+      "plot paths and errors (needs Python with matplotlib)")("force", po::bool_switch(&force),
                                                               "replace existing files");
   if (!line.parse(argc, argv)) return;
   requirePositive("delta", options.delta, "seconds");

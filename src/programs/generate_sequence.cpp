@@ -70,67 +70,72 @@ void addSequenceOptions(mivo::CommandLine& line, Request& request) {
       "trajectory", po::value(&g.trajectory)->default_value(g.trajectory)->value_name("NAME"),
       listed(mivo::CameraPath::names()).c_str())(
       "lighting", po::value(&g.lighting)->default_value(g.lighting)->value_name("NAME"),
-      listed(mivo::SceneLighting::names()).c_str())(
-      "frames", number(g.frames, "150"), "number of frames")("rate", number(g.rate, "30"),
-                                                             "frames per second")(
-      "pace", number(g.pace, "1"), "how fast the path is travelled: 2 is twice as fast")(
-      "seed", number(g.seed, "1"), "another seed: other textures, motion and noise")(
+      listed(mivo::SceneLighting::names()).c_str())("frames", number(g.frames, "150"),
+                                                    "number of frames")(
+      "rate", number(g.rate, "30"), "frames per second")("pace", number(g.pace, "1"),
+                                                         "factor on the speed of the path")(
+      "seed", number(g.seed, "1"), "seed of textures, motion and noise")(
       "width", number(request.width, "640"), "pixels")("height", number(request.height, "480"),
                                                        "pixels")(
       "blind", mivo::twoNumbers(&request.blind)->value_name("FIRST COUNT"),
-      "before and after these frames a scene of one surface is textured")(
+      "scenes of one surface: add texture before and after these frames")(
       "lens", po::value(&request.lens)->default_value(request.lens)->value_name("NAME"),
       "polynomial (plumb_bob, rational_polynomial) or equidistant (fisheye)")(
       "distortion", po::value(&request.distortion)->value_name("K1,K2,P1,P2,K3[,K4,K5,K6]"),
-      "lens distortion, five or eight numbers with commas and no blanks, or K1,K2,K3,K4 of an "
-      "equidistant lens; none by default")("field-of-view",
-                                           number(request.field_of_view, "an Xtion's"),
-                                           "degrees, horizontal, before a polynomial distorts it")(
-      "threads", number(request.threads, "all cores"), "threads; the images do not depend on it")(
+      "lens distortion, five or eight numbers separated by commas without blanks, or K1,K2,K3,K4 "
+      "of "
+      "an equidistant lens (default: none)")(
+      "field-of-view", number(request.field_of_view, "an Xtion's"),
+      "horizontal, degrees, before distortion by a polynomial")(
+      "threads", number(request.threads, "all cores"),
+      "threads; the result does not depend on their number")(
       "force", po::bool_switch(&request.force), "replace an existing sequence");
 }
 
 void addColourOptions(mivo::CommandLine& line, Request& request) {
   mivo::SensorOptions& s = request.generator.sensor;
   line.options()("ideal", po::bool_switch(&request.ideal),
-                 "no noise, no motion blur, no quantisation of depth, no holes")(
-      "exposure-time", number(s.exposure_time, "0.010"), "s, of the first frame or of all")(
-      "gain", number(s.gain, "metered"), "fixed gain; by default the first frame decides")(
+                 "no noise, no motion blur, no quantization of depth, no holes")(
+      "exposure-time", number(s.exposure_time, "0.010"),
+      "s, of the first frame (with --auto-exposure) or of all frames")(
+      "gain", number(s.gain, "metered"), "fixed gain (default: metered on the first frame)")(
       "auto-exposure", po::bool_switch(&s.exposure_control.automatic),
-      "time and gain follow the images")("exposure-delay", number(s.exposure_control.delay, "10"),
-                                         "frames until a measurement acts")(
+      "adapt exposure time and gain to the images")("exposure-delay",
+                                                    number(s.exposure_control.delay, "10"),
+                                                    "frames until a measurement takes effect")(
       "target-grey", number(s.exposure_control.target_grey, "110"),
-      "mean value that metering aims at")(
+      "mean value targeted by metering")(
       "max-exposure-time", number(s.exposure_control.max_time, "0.030"), "s, with --auto-exposure")(
       "max-gain", number(s.exposure_control.max_gain, "16"), "with --auto-exposure")(
       "no-blur", po::bool_switch(&request.no_blur), "no motion blur")(
-      "lens-blur", number(s.lens_blur, "0"), "standard deviation of the lens' point image, pixels")(
-      "samples", number(s.samples, "4"), "rays per pixel, more where motion asks for it")(
-      "readout", number(s.readout, "0"), "s, rolling shutter: from the first to the last row")(
-      "no-noise", po::bool_switch(&request.no_noise), "no noise in colour and depth")(
+      "lens-blur", number(s.lens_blur, "0"), "standard deviation of a Gaussian lens blur, pixels")(
+      "samples", number(s.samples, "4"), "rays per pixel; more where motion requires it")(
+      "readout", number(s.readout, "0"), "s, rolling shutter: time from the first to the last row")(
+      "no-noise", po::bool_switch(&request.no_noise), "no noise in color and depth")(
       "full-well", number(s.imager.full_well, "6000"), "electrons that saturate a pixel at gain 1")(
       "read-noise", number(s.imager.read_noise, "9"), "electrons")(
       "transfer", po::value(&request.transfer)->default_value("srgb")->value_name("NAME"),
       "srgb or linear")("vignetting", number(s.imager.vignetting, "0"),
                         "loss of light in the corners, 0..1")(
       "stereo", number(s.stereo_baseline, "none"),
-      "baseline, m: a right camera writes the folder right and right.txt");
+      "baseline, m: also render a right camera, folder right and right.txt");
 }
 
 void addDepthOptions(mivo::CommandLine& line, Request& request) {
   mivo::SensorOptions& s = request.generator.sensor;
-  line.options()("depth-noise", number(s.depth.noise, "0.06"), "of the disparity, pixels")(
-      "disparity-step", number(s.depth.disparity_step, "0.125"),
-      "pixels; 0: depth is not quantised")("no-holes", po::bool_switch(&request.no_holes),
-                                           "depth at edges, in shadows and at grazing angles, too")(
+  line.options()("depth-noise", number(s.depth.noise, "0.06"),
+                 "standard deviation of the disparity, pixels")(
+      "disparity-step", number(s.depth.disparity_step, "0.125"), "pixels; 0: no quantization")(
+      "no-holes", po::bool_switch(&request.no_holes),
+      "valid depth at edges, in shadows and at grazing angles")(
       "min-depth", number(s.depth.min_depth, "0.4"), "m")(
       "max-depth", number(s.depth.max_depth, "5"), "m")("depth-units",
                                                         number(s.depth.units_per_metre, "5000"),
-                                                        "steps per metre in the depth images")(
+                                                        "units per meter in the depth images")(
       "depth-offset", mivo::twoNumbers(&request.depth_offset)->value_name("X Y"),
-      "pixels by which depth is registered wrongly; none by default")(
+      "error of the depth registration, pixels (default: none)")(
       "depth-time-offset", number(s.depth_time_offset, "0"),
-      "s, by which depth is taken later than colour; negative: earlier");
+      "s, by which depth is taken later than color; negative: earlier");
 }
 
 std::vector<double> parseNumbers(const std::string& text) {
@@ -263,9 +268,9 @@ void run(int argc, char** argv) {
   Request request;
   mivo::CommandLine line(
       "generate_sequence",
-      "Films a synthetic room with an RGB-D camera whose pose is known exactly, and writes a "
-      "sequence folder.");
-  line.argument("FOLDER", &request.folder, "the sequence folder to write");
+      "Renders a synthetic scene seen by an RGB-D camera with known poses, and writes a sequence "
+      "folder.");
+  line.argument("FOLDER", &request.folder, "sequence folder to write");
   addSequenceOptions(line, request);
   addColourOptions(line, request);
   addDepthOptions(line, request);

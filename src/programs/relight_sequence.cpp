@@ -126,14 +126,14 @@ void run(int argc, char** argv) {
     known += (known.empty() ? "" : ", ") + name;
   mivo::CommandLine line(
       "relight_sequence",
-      "Copies a sequence folder with the light in its colour images changed; depth and "
-      "everything else stay as they are.");
-  line.argument("IN", &in, "the sequence folder to read");
-  line.argument("OUT", &out, "the sequence folder to write");
+      "Copies a sequence folder and changes the lighting of its color images; everything else is "
+      "copied unchanged.");
+  line.argument("IN", &in, "sequence folder to read");
+  line.argument("OUT", &out, "sequence folder to write");
   line.options()("lighting", po::value(&lighting)->required()->value_name("NAME"), known.c_str())(
       "seed", po::value(&seed)->default_value(seed)->value_name("N"),
-      "of the noise and of where lights start")("force", po::bool_switch(&force),
-                                                "replace an existing sequence");
+      "seed of the noise and of the initial phase of the lights")("force", po::bool_switch(&force),
+                                                                  "replace an existing sequence");
   if (!line.parse(argc, argv)) return;
   const std::vector<std::string>& names = mivo::Relighting::names();
   if (std::find(names.begin(), names.end(), lighting) == names.end()) {
@@ -158,7 +158,7 @@ void run(int argc, char** argv) {
       pixels = mivo::readImage((fs::path(in) / image.path).string());
     } catch (const mivo::Error& error) {
       progress.clear();
-      std::cerr << "relight_sequence: copied as it is: " << error.what() << "\n";
+      std::cerr << "relight_sequence: copied unchanged: " << error.what() << "\n";
       copyInto(in, out, image.path);
       relighting.skip();
       progress.advance();

@@ -12,12 +12,13 @@ namespace {
 void run(int argc, char** argv) {
   std::vector<std::string> bags;
   mivo::RgbdTopics topics;
-  mivo::CommandLine line("run_bag",
-                         "Visual odometry over a bag, as fast as it goes and without a ROS master: "
-                         "tracks each frame and writes the camera's trajectory.");
+  mivo::CommandLine line(
+      "run_bag",
+      "Tracks an RGB-D camera through a bag, as fast as possible and without a ROS "
+      "master, and writes its trajectory.");
   line.arguments(
       "BAG", &bags,
-      "a bag with colour images, depth images and camera_info; several are one recording");
+      "bag with color images, depth images and camera_info; several bags are one recording");
   mivo::declareTopics(line, &topics);
   mivo::TrackingCommandLine tracking;
   tracking.declare(line);

@@ -10,11 +10,12 @@ namespace {
 
 void run(int argc, char** argv) {
   std::string folder;
-  mivo::CommandLine line("run_sequence",
-                         "Visual odometry over a sequence folder: tracks each frame and writes the "
-                         "camera's trajectory.");
+  mivo::CommandLine line(
+      "run_sequence",
+      "Tracks an RGB-D camera through a sequence folder and writes its trajectory.");
   line.argument("FOLDER", &folder,
-                "images and camera.txt as TUM lays them out, or 7-Scenes, ScanNet, SUN3D, ...");
+                "sequence folder in the layout of TUM (images and camera.txt), 7-Scenes, ScanNet, "
+                "SUN3D, ...");
   mivo::TrackingCommandLine tracking;
   tracking.declare(line);
   if (!line.parse(argc, argv)) return;

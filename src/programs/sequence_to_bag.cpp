@@ -88,7 +88,7 @@ void writeTruth(const fs::path& folder, const std::vector<Image>& images, mivo::
   if (!bag.writeGroundTruth(truth, first->stamp)) {
     std::cerr
         << "sequence_to_bag: note: the ground truth has no pose within 20 ms of the first image: "
-           "the bag does not say where odom lies in world\n";
+           "the bag has no transform from world to odom\n";
   }
 }
 
@@ -99,20 +99,20 @@ void run(int argc, char** argv) {
   std::string layout_name;
   bool compressed = false;
   bool force = false;
-  mivo::CommandLine line("sequence_to_bag", "Writes a sequence folder as a bag.");
-  line.argument("FOLDER", &folder, "the sequence");
-  line.argument("BAG", &path, "the bag");
+  mivo::CommandLine line("sequence_to_bag", "Converts a sequence folder to a bag.");
+  line.argument("FOLDER", &folder, "sequence folder to read");
+  line.argument("BAG", &path, "bag to write");
   line.options()("layout", po::value<std::string>(&layout_name)->default_value("tum"),
                  "names and types of the topics: tum, openni2, rtabmap or realsense")(
       "compressed", po::bool_switch(&compressed),
-      "images as PNG on the compressed topics; depth in millimetres")(
+      "write PNG images on the compressed topics; depth in millimeters")(
       "force", po::bool_switch(&force), "replace an existing bag");
   if (!line.parse(argc, argv)) return;
   const auto& layouts = mivo::bagLayouts();
   if (std::none_of(layouts.begin(), layouts.end(),
                    [&](const mivo::BagLayout& layout) { return layout.name == layout_name; })) {
     throw mivo::UsageError("--layout: '" + layout_name +
-                           "' is none of tum, openni2, rtabmap, realsense");
+                           "' is not one of tum, openni2, rtabmap, realsense");
   }
   const std::vector<Image> images = readImages(folder);
   mivo::BagWriter bag(path, mivo::bagLayout(layout_name), readCameraOf(folder),

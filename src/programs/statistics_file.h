@@ -8,7 +8,7 @@
 
 namespace mivo {
 
-/// What happened on each frame as comma-separated values: a row of names, then a row per frame.
+/// Statistics of each frame as comma-separated values: a row of names, then a row per frame.
 /// Columns: stamp (s), state, reason, keyframe (its number, 0: none), new_keyframe (0 or 1),
 /// segment; for each level L of the pyramid, 0 the finest, iterations_L, evaluations_L (of the
 /// cost), points_L (of the keyframe), visible_L (of them used), ms_L and, of it, ms_line_search_L;

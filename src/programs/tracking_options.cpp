@@ -10,7 +10,7 @@ namespace {
 
 namespace po = boost::program_options;
 
-/// A value from the command line: what is wrong with it is wrong usage.
+/// A value from the command line: an invalid one is a usage error.
 void setFromCommandLine(Parameters& parameters, const std::string& name, const std::string& value) {
   try {
     setParameter(parameters, name, value);
@@ -22,7 +22,7 @@ void setFromCommandLine(Parameters& parameters, const std::string& name, const s
 Disturbance disturbanceOf(const std::vector<double>& norms, long long seed) {
   for (const double norm : norms) {
     if (!std::isfinite(norm) || norm < 0.0) {
-      throw UsageError("--disturb takes two numbers that are not negative, METRES and RADIANS");
+      throw UsageError("--disturb takes two nonnegative numbers, METERS and RADIANS");
     }
   }
   if (seed < 0) throw UsageError("--seed must not be negative");
@@ -33,23 +33,23 @@ Disturbance disturbanceOf(const std::vector<double>& norms, long long seed) {
 
 void TrackingCommandLine::declare(CommandLine& line) {
   line.options()("output", po::value(&output_)->value_name("TRAJECTORY"),
-                 "file for the trajectory, lines 'stamp tx ty tz qx qy qz qw' (required)")(
-      "method", po::value(&method_)->value_name("ssd|mi|hybrid"), "short for --set method=...")(
+                 "output file, lines 'stamp tx ty tz qx qy qz qw' (required)")(
+      "method", po::value(&method_)->value_name("ssd|mi|hybrid"), "same as --set method=...")(
       "config", po::value(&config_)->value_name("FILE"), "YAML file with lines 'name: value'")(
       "set", po::value(&settings_)->composing()->value_name("name=value"),
-      "set one parameter; may be given several times and overrides all else")(
+      "set one parameter; can be repeated, overrides all other settings")(
       "start", po::value(&start_)->value_name("N")->default_value(0), "number of the first frame")(
       "count", po::value(&count_)->value_name("N"), "number of frames (default: all)")(
-      "threads", po::value(&threads_)->value_name("N"), "short for --set threads=...")(
+      "threads", po::value(&threads_)->value_name("N"), "same as --set threads=...")(
       "statistics", po::value(&statistics_)->value_name("FILE.csv"), "write one row per frame")(
       "write-lost", po::bool_switch(&write_lost_),
-      "write the pose of a lost frame, too: it is a guess, and nothing in the file says so")(
+      "also write the guessed poses of lost frames; the file does not mark them")(
       "force", po::bool_switch(&force_), "replace existing files")(
       "reference", po::value(&reference_)->value_name("first"),
-      "the first frame stays the only keyframe, and each frame starts from the last frame's pose")(
-      "disturb", twoNumbers(&disturbance_)->value_name("METRES RADIANS"),
-      "displace the pose each frame starts from by a random translation and rotation of these "
-      "norms")("seed", po::value(&seed_)->value_name("N")->default_value(0), "of --disturb");
+      "keep the first frame as the only keyframe and start each alignment at the last pose")(
+      "disturb", twoNumbers(&disturbance_)->value_name("METERS RADIANS"),
+      "displace the start of each alignment by a random translation and rotation of these "
+      "norms")("seed", po::value(&seed_)->value_name("N")->default_value(0), "seed of --disturb");
 }
 
 TrackingOptions TrackingCommandLine::options(const CommandLine& line) const {
@@ -62,13 +62,13 @@ TrackingOptions TrackingCommandLine::options(const CommandLine& line) const {
   if (start_ < 0) throw UsageError("--start must not be negative");
   options.range.start = static_cast<std::size_t>(start_);
   if (line.has("count")) {
-    if (count_ < 1) throw UsageError("--count must be 1 at least");
+    if (count_ < 1) throw UsageError("--count must be at least 1");
     options.range.count = static_cast<std::size_t>(count_);
   }
   if (line.has("disturb")) {
     options.disturbance = disturbanceOf(disturbance_, seed_);
   } else if (line.has("seed")) {
-    throw UsageError("--seed is of use with --disturb only");
+    throw UsageError("--seed requires --disturb");
   }
 
   Parameters& parameters = options.parameters;
@@ -76,7 +76,7 @@ TrackingOptions TrackingCommandLine::options(const CommandLine& line) const {
   if (line.has("method")) setFromCommandLine(parameters, "method", method_);
   if (line.has("threads")) setFromCommandLine(parameters, "threads", threads_);
   if (line.has("reference")) {
-    if (reference_ != "first") throw UsageError("--reference knows 'first' only");
+    if (reference_ != "first") throw UsageError("--reference must be 'first'");
     setFromCommandLine(parameters, "keyframe_policy", "first");
     setFromCommandLine(parameters, "motion_model", "constant_pose");
   }

@@ -13,7 +13,7 @@
 #include "programs/output_paths.h"
 #include "programs/tracking_summary.h"
 
-// What run_sequence and run_bag have in common: everything but where the frames come from.
+// Common part of run_sequence and run_bag: everything except the source of frames.
 
 namespace mivo {
 
@@ -56,15 +56,15 @@ class TrackingCommandLine {
   bool write_lost_ = false;
 };
 
-/// Tracks all frames of the source and writes trajectory and statistics line by line: what has been
-/// computed is on disk whatever happens later. Measured poses are written, and those of lost frames
-/// when the options say so. Skipped frames are told on stderr, once per reason. Both files
-/// are looked at before one is opened, see requireOutputs(). Throws UsageError or Error when they
-/// cannot be written, Error when the source fails.
+/// Tracks all frames of the source and writes trajectory and statistics line by line: computed
+/// results are on disk even if a later step fails. Measured poses are written, and those of lost
+/// frames when the options say so. Skipped frames are reported on stderr, once per reason. Both
+/// files are looked at before one is opened, see requireOutputs(). Throws UsageError or Error when
+/// they cannot be written, Error when the source fails.
 TrackingSummary trackFrames(FrameSource& source, const TrackingOptions& options);
 
-/// The body of a program: the same with all that is to be said on stdout and stderr. Throws Error,
-/// too, when nothing was tracked, see requireTracked().
+/// The body of a program: trackFrames with output on stdout and stderr. Also throws Error when
+/// nothing was tracked, see requireTracked().
 void runTracking(const std::string& program, FrameSource& source, const TrackingOptions& options);
 
 }  // namespace mivo

@@ -13,12 +13,12 @@
 
 namespace mivo {
 
-/// How many frames something was said of.
+/// Numbers of frames by reason.
 using CountByReason = std::map<std::string, std::size_t>;
 
 /// Totals over a run.
 struct TrackingSummary {
-  std::size_t frames = 0;  ///< looked at by the tracker; skipped ones are not among them
+  std::size_t frames = 0;  ///< processed by the tracker, without skipped ones
   std::size_t initialising = 0;
   std::size_t tracked = 0;
   std::size_t degraded = 0;
@@ -38,10 +38,10 @@ struct TrackingSummary {
   double depth_unit = 0.0;            ///< m, of 16-bit depth, of the last frame; 0: metres
   CountByReason depth_storage;        ///< frames by how their depth seems to be stored, see below
 
-  /// Counts a frame that was looked at.
+  /// Counts a processed frame.
   void add(const Frame& frame, const TrackingResult& result, double cpu_ms);
 
-  /// Counts a frame that was not. Whether it is the first with this reason.
+  /// Counts a skipped frame. Returns whether it is the first with this reason.
   bool addSkipped(const std::string& reason);
 };
 

@@ -8,7 +8,7 @@
 namespace mivo {
 namespace {
 
-// What two_d_mode takes for granted: a millimetre, a milliradian.
+// Variance of components fixed by two_d_mode: 1 mm, 1 mrad.
 constexpr double kPlaneVariance = 1e-6;
 
 /// Rotates both halves of a six-vector.

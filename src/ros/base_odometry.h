@@ -15,8 +15,8 @@ namespace mivo {
 struct BaseOdometry {
   Eigen::Isometry3d T_odom_base = Eigen::Isometry3d::Identity();
 
-  /// Of T_odom_base, as nav_msgs/Odometry wants it: error of the base's position in the axes of
-  /// odom (m), then the error's rotation about the fixed axes of odom (rad).
+  /// Of T_odom_base, as defined by nav_msgs/Odometry: error of the base's position in the axes of
+  /// odom (m), then error of its rotation about the fixed axes of odom (rad).
   Matrix6 pose_covariance = Matrix6::Identity() * kUnknownVariance;
 
   Vector6 twist = Vector6::Zero();  ///< of the base in its own axes: m/s, rad/s
@@ -30,8 +30,8 @@ struct BaseOdometry {
 BaseOdometry toBase(const TrackingResult& result, const Matrix6& camera_twist_covariance,
                     const Eigen::Isometry3d& T_odom_world, const Eigen::Isometry3d& T_base_camera);
 
-/// Motion in the plane z = 0 of odom: x, y and yaw are kept. What the plane fixes has a small
-/// variance.
+/// Motion in the plane z = 0 of odom: x, y and yaw are kept. Components fixed by the plane have a
+/// small variance.
 BaseOdometry inPlane(const BaseOdometry& odometry);
 
 /// Header and child_frame_id are left empty.

@@ -14,7 +14,7 @@ namespace {
 // Of an Xtion's colour camera, as its driver reports it; rad.
 constexpr double kUsualFieldOfView = 1.0144686;
 
-// camera_info_manager takes letters, digits and underscores only.
+// camera_info_manager accepts only letters, digits and underscores.
 std::string asName(const std::string& text) {
   std::string name = text;
   std::replace_if(
@@ -46,7 +46,7 @@ CameraCalibration::CameraCalibration(const ros::NodeHandle& node, const std::str
   if (!url.empty() && !manager_.validateURL(url)) {
     ROS_ERROR_STREAM("The calibration URL '" << url
                                              << "' cannot be used; write file:///path/file.yaml or "
-                                                "package://name/file.yaml. Going on without it");
+                                                "package://name/file.yaml. Continuing without it");
   }
 }
 
@@ -74,7 +74,7 @@ sensor_msgs::CameraInfo CameraCalibration::info(int width, int height) {
                                             << info.height << ", the images are " << width << "x"
                                             << height
                                             << ": using the field of view of the device instead; "
-                                               "calibrate again at this size");
+                                               "calibrate at this size");
     }
   }
   return cameraInfoFromFieldOfView(width, height, field_of_view_);

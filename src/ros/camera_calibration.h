@@ -10,15 +10,15 @@
 
 namespace mivo {
 
-/// Intrinsics of one of the cameras: a calibration file where there is one that fits the images,
-/// otherwise a pinhole camera made from the field of view that the device tells.
+/// Intrinsics of one of the cameras: from a calibration file that matches the images, or a pinhole
+/// camera from the field of view that the device reports.
 class CameraCalibration {
  public:
   /// Offers the service NODE/set_camera_info. An empty url means the file of this camera in
   /// ~/.ros/camera_info.
   CameraCalibration(const ros::NodeHandle& node, const std::string& name, const std::string& url);
 
-  /// A device was opened: the file of this very camera is looked for, by its serial number.
+  /// Called when a device was opened: loads the calibration file of its serial number.
   /// @param field_of_view horizontal, rad; 0: not known
   void setDevice(const std::string& serial, double field_of_view);
 
@@ -35,7 +35,7 @@ class CameraCalibration {
 };
 
 /// Square pixels, principal point in the middle of the image (pixel centres at integers). An
-/// unknown field of view is taken to be that of an Xtion.
+/// unknown field of view is assumed to be that of an Xtion.
 sensor_msgs::CameraInfo cameraInfoFromFieldOfView(int width, int height, double field_of_view);
 
 }  // namespace mivo

@@ -68,7 +68,7 @@ void setPinhole(Camera& camera, const double* matrix, int columns, const char* n
                 " has no positive focal length; set the camera's calibration file");
   }
   if (matrix[1] != 0.0) {
-    throw Error(std::string("camera_info: ") + name + " has a skew, which is not supported");
+    throw Error(std::string("camera_info: ") + name + " has skew, which is not supported");
   }
   const double* last = matrix + 2 * columns;
   if (last[0] != 0.0 || last[1] != 0.0 || last[2] != 1.0) {

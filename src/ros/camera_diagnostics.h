@@ -16,13 +16,13 @@ struct CameraReport {
   CameraStatus status;
   PairStatistics pairs;
   double processor_time = 0.0;  ///< s, used by the camera's thread so far
-  int rate = 30;                ///< Hz that were asked for
+  int rate = 30;                ///< Hz, requested
 };
 
 /// State of the camera on /diagnostics once a second.
 class CameraDiagnostics {
  public:
-  /// @param report is asked in the node's queue; it must not wait for the camera
+  /// @param report called in the node's queue; it must not block on the camera
   CameraDiagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
                     const std::string& name, std::function<CameraReport()> report);
 

@@ -9,8 +9,8 @@
 
 namespace mivo {
 
-/// Parameters of the camera node that are read once, at the start. What may change while it runs is
-/// in config/OpenNI2.cfg.
+/// Parameters of the camera node that are read once at startup. Those that can change at run time
+/// are in config/OpenNI2.cfg.
 struct CameraParameters {
   DeviceRequest device;                 ///< parameters device, width, height, rate, depth_unit (m),
                                         ///< depth_registration, depth_synchronisation, repeat

@@ -20,17 +20,17 @@
 namespace mivo {
 
 /// The message of an image: rgb8; depth 16UC1 when it is in millimetres, otherwise 32FC1 in metres
-/// with NaN for no reading. The only copy of the pixels that is made.
+/// with NaN for no reading. The only copy of the pixels.
 sensor_msgs::ImagePtr toMessage(const ImageView& view);
 
 struct PairStatistics {
   std::int64_t pairs = 0;
-  std::int64_t singles = 0;  ///< images whose partner was lost
+  std::int64_t singles = 0;  ///< images without a partner
   double offset = 0.0;       ///< s, depth minus colour, of the last pair
 };
 
-/// Publishes images with their camera_info, colour and depth of a pair together, as pointers: a
-/// nodelet in the same manager gets the message that is made here.
+/// Publishes images with their camera_info, colour and depth of a pair together, as pointers:
+/// nodelets in the same manager receive them without a copy.
 class CameraPublisher {
  public:
   /// `on_demand` is called when subscribers come or go.
@@ -56,7 +56,7 @@ class CameraPublisher {
   };
 
   void advertise(ros::NodeHandle node, bool registration);
-  void updateDemand();  // called behind the gate
+  void updateDemand();  // called inside the gate
   void publishPair(const PublishedImage& color, const PublishedImage& depth);
   void publishSingle(StreamKind kind, const PublishedImage& image);
   void publish(StreamKind kind, const sensor_msgs::ImagePtr& image);
@@ -68,8 +68,8 @@ class CameraPublisher {
   CameraCalibration color_calibration_;
   std::unique_ptr<CameraCalibration> depth_calibration_;  ///< without registration only
 
-  /// What callbacks of subscribers pass: image_transport does not wait for those under way when a
-  /// publisher goes, so that they have a part in it.
+  /// Gate of subscriber callbacks. image_transport does not wait for running callbacks when a
+  /// publisher is destroyed; they therefore share ownership of the gate.
   struct Gate {
     std::mutex mutex;
     bool is_open = true;
@@ -82,7 +82,7 @@ class CameraPublisher {
   std::atomic<double> color_time_offset_{0.0};
   std::atomic<double> depth_time_offset_{0.0};
 
-  StampPairer<PublishedImage> pairer_;  // the camera thread's own
+  StampPairer<PublishedImage> pairer_;  // used by the camera thread only
   mutable std::mutex statistics_mutex_;
   PairStatistics statistics_;
 };

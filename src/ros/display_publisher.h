@@ -14,19 +14,19 @@
 
 namespace mivo {
 
-/// Publishes what is there to be looked at: keyframe_cloud, keyframes, reference/image and
-/// residual/image. Nothing is computed for a topic that nobody listens to.
+/// Publishes keyframe_cloud, keyframes, reference/image and residual/image. Topics without
+/// subscribers are not computed.
 class DisplayPublisher {
  public:
   DisplayPublisher(const ros::NodeHandle& private_node, const NodeParameters& parameters);
 
-  /// @param keyframe      number of the odometry's present keyframe
+  /// @param keyframe      number of the current keyframe
   /// @param T_odom_world  world of the tracker in the published frame
   /// @param header        of the colour image
   void publish(const Odometry& odometry, int keyframe, const Eigen::Isometry3d& T_odom_world,
                const std_msgs::Header& header);
 
-  /// When the odometry frame was moved: shows the keyframes where they are now.
+  /// Updates the keyframes after the odometry frame was moved.
   void move(const Eigen::Isometry3d& T_new_old);
   void clear();
 

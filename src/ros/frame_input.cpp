@@ -17,14 +17,14 @@ namespace mivo {
 namespace {
 
 constexpr double kSilence = 5.0;  // s without a pair before a warning
-// Without a message for this long no better partner will come for what is waiting.
+// After this long without a message no better partner is expected for waiting images.
 constexpr double kIdle = 0.5;          // s
 constexpr double kWatchPeriod = 0.25;  // s
 
 // Pairs that wait for their calibration; it comes with the image or not at all.
 constexpr std::size_t kMostWaiting = 3;
 
-// Where no frame may be lost, one topic may run ahead of the other by this many images at least.
+// Least queue, in images, where no frame may be dropped: one topic may run ahead of the other.
 constexpr int kQueueWithoutLoss = 100;
 
 NodeParameters withLongQueue(NodeParameters parameters) {
@@ -174,7 +174,7 @@ void FrameInput::keepEarly(ImagePair pair) {
   early_.push(std::move(pair));
   if (parameters_.drop_frames || early_.dropped() == 0) return;
   ROS_WARN_THROTTLE(kSilence,
-                    "there is no calibration on %s yet, and more frames than queue_size (%d) wait "
+                    "no calibration has arrived on %s, and more frames than queue_size (%d) wait "
                     "for it: the oldest are dropped",
                     camera_info_count_.topic.c_str(), parameters_.queue_size);
 }
@@ -210,7 +210,7 @@ std::string FrameInput::silence() {
   const std::lock_guard<std::mutex> lock(mutex_);
   const double seconds = (ros::WallTime::now() - last_pair_).toSec();
   if (seconds < next_warning_) return {};
-  next_warning_ = 2.0 * seconds;  // less and less often
+  next_warning_ = 2.0 * seconds;  // increasingly rare
   return explain(seconds);
 }
 
@@ -240,14 +240,13 @@ std::string FrameInput::explain(double seconds) const {
         seconds, camera_info_count_.topic);
   }
   if (!silent.empty()) {
-    return fmt::format("no frame for {:.0f} s, nothing comes on: {}", seconds, silent) + text;
+    return fmt::format("no frame for {:.0f} s, no messages on: {}", seconds, silent) + text;
   }
   const double difference = std::abs(countOf(ImageStream::kColour).last_stamp.toSec() -
                                      countOf(ImageStream::kDepth).last_stamp.toSec());
   return fmt::format(
-             "no frame for {:.0f} s: images come, but their stamps are not {}; the last ones "
-             "differ "
-             "by {:.3f} s (parameters approximate_sync, sync_tolerance)",
+             "no frame for {:.0f} s: images arrive, but the stamps of color and depth are not {}; "
+             "the last ones differ by {:.3f} s (parameters approximate_sync, sync_tolerance)",
              seconds,
              parameters_.approximate_sync ? fmt::format("within {} s", parameters_.sync_tolerance)
                                           : std::string("equal"),

@@ -19,19 +19,19 @@
 
 namespace mivo {
 
-/// What has come in on one topic.
+/// Statistics of one topic.
 struct InputCount {
   std::string topic;
   std::uint32_t publishers = 0;
   std::uint64_t messages = 0;
-  std::uint64_t without_partner = 0;  ///< images of no pair
+  std::uint64_t without_partner = 0;  ///< images without a partner
   ros::Time last_stamp;               ///< of the header
   ros::WallTime last_arrival;         ///< zero: nothing yet
 };
 
-/// Subscribes to colour, depth and calibration, and pairs them by their stamps. All calls of ROS
-/// come from one thread, the queue's of the node handle; the other functions may be called from
-/// any.
+/// Subscribes to colour, depth and calibration, and pairs them by their stamps. ROS callbacks run
+/// in one thread, that of the node handle's queue; the other functions may be called from any
+/// thread.
 class FrameInput {
  public:
   using PairCallback = std::function<void(const ImagePair&)>;
@@ -40,12 +40,12 @@ class FrameInput {
   FrameInput(const ros::NodeHandle& private_node, const NodeParameters& parameters,
              PairCallback callback);
 
-  /// Ends the subscriptions. What was waiting for a better partner is delivered, so that a bag's
-  /// last frame is not lost. To be called when the queue's thread has stopped.
+  /// Ends the subscriptions and delivers waiting pairs, so that the last frame of a bag is not
+  /// lost. Call it after the queue's thread has stopped.
   void stop();
 
-  /// One line that says which input is silent, or why none of the images fit together, when no pair
-  /// has come for a while and it was not said lately; otherwise an empty text.
+  /// A line that names the silent input, or says why images do not pair, if no pair has arrived for
+  /// a while and this was not reported recently; otherwise empty.
   std::string silence();
 
   /// Colour, depth, calibration.
@@ -75,7 +75,7 @@ class FrameInput {
 
   NodeParameters parameters_;
   PairCallback callback_;
-  StampPairer<ImageMessageConstPtr> pairer_;  // the queue's thread's own
+  StampPairer<ImageMessageConstPtr> pairer_;  // used by the queue's thread only
   ImagePort colour_;
   ImagePort depth_;
   ros::Subscriber camera_info_subscriber_;
@@ -84,7 +84,7 @@ class FrameInput {
 
   std::deque<ImagePair> waiting_;  // for the calibration of their own stamp; the thread's own
   ros::Time last_given_;           // stamp of the last pair that had it
-  FrameQueue<ImagePair> early_;    // pairs that came before the calibration
+  FrameQueue<ImagePair> early_;    // pairs that arrived before the calibration
 
   mutable std::mutex mutex_;  // guards what follows
   std::array<InputCount, 2> image_counts_;

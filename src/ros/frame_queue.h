@@ -9,7 +9,7 @@
 
 namespace mivo {
 
-/// Most frames that wait where none may be dropped: 1.5 GB of 640 x 480 pixels.
+/// Capacity where no frame may be dropped: 1.5 GB of 640 x 480 pixels.
 constexpr std::size_t kMaxBacklog = 1000;
 
 /// Frames between the thread that receives them and the one that tracks them.
@@ -17,8 +17,8 @@ template <typename Item>
 class FrameQueue {
  public:
   enum class Policy {
-    kNewest,  ///< a newer frame takes the place of one that still waits
-    kAll      ///< all frames wait, up to the capacity: then the oldest go
+    kNewest,  ///< a newer frame replaces a waiting one
+    kAll      ///< all frames wait; beyond the capacity the oldest are dropped
   };
 
   explicit FrameQueue(Policy policy, std::size_t capacity = kMaxBacklog)
@@ -38,7 +38,8 @@ class FrameQueue {
     changed_.notify_one();
   }
 
-  /// The oldest frame, waited for; nothing once the queue is closed and, with kAll, empty.
+  /// Waits for the oldest frame; empty once the queue is closed and, with kAll, all frames were
+  /// taken.
   std::optional<Item> pop() {
     std::unique_lock<std::mutex> lock(mutex_);
     changed_.wait(lock, [this] { return closed_ || !items_.empty(); });
@@ -48,7 +49,7 @@ class FrameQueue {
     return item;
   }
 
-  /// Wakes up the consumer. With kAll it still gets what waits, with kNewest nothing.
+  /// Wakes the consumer. With kAll it still receives waiting frames, with kNewest none.
   void close() {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
@@ -58,7 +59,7 @@ class FrameQueue {
     changed_.notify_all();
   }
 
-  /// Discards what waits and returns how many that were.
+  /// Discards waiting frames and returns their number.
   std::size_t clear() {
     const std::lock_guard<std::mutex> lock(mutex_);
     const std::size_t count = items_.size();
@@ -71,7 +72,7 @@ class FrameQueue {
     return items_.size();
   }
 
-  /// Frames that had to go for newer ones.
+  /// Number of frames dropped for newer ones.
   std::uint64_t dropped() const {
     const std::lock_guard<std::mutex> lock(mutex_);
     return dropped_;

@@ -7,8 +7,7 @@
 
 namespace mivo {
 
-/// The beginning of any message with a header: reading only this much of an image leaves its pixels
-/// where they are.
+/// The beginning of any message with a header: reads the header of an image without its pixels.
 struct HeaderOnly {
   std_msgs::Header header;
 };

@@ -10,7 +10,7 @@
 
 namespace mivo {
 
-/// Depth as Frame takes it.
+/// Depth in the form required by Frame.
 struct DepthImage {
   cv::Mat image;        ///< CV_16UC1 in `unit`, or CV_32FC1 in metres
   double unit = 0.001;  ///< metres per step of a CV_16UC1 image
@@ -24,9 +24,8 @@ struct ColourImage {
 
 /// Image of a colour message: mono8, mono16, rgb8, bgr8, rgba8, bgra8 and the same with 16 bits,
 /// 8UC1, 8UC3, 8UC4, bayer_*8 and bayer_*16, yuv422, yuyv, nv12, nv21.
-/// Nothing is copied where it can be avoided: the result refers to the message's pixels and must
-/// not outlive them. Throws Error, with the remedy, for another encoding or a message whose sizes
-/// contradict each other.
+/// Avoids copies: the result may reference the message's pixels and must not outlive them. Throws
+/// Error, with the remedy, for another encoding or a message with inconsistent sizes.
 ColourImage toColourImage(const sensor_msgs::Image& message);
 
 /// The same of a JPEG or PNG message of the transport "compressed"; a mosaic in it is demosaiced.

@@ -17,14 +17,14 @@
 
 namespace mivo {
 
-/// An image as it came, raw or compressed: it is decoded only when its turn has come.
+/// An image message, raw or compressed, decoded only when it is tracked.
 struct ImageMessage {
   std_msgs::Header header;
   sensor_msgs::ImageConstPtr raw;  ///< one of the two is set
   sensor_msgs::CompressedImageConstPtr compressed;
   ros::WallTime arrival;  ///< in this node
 
-  /// As the functions of the same names for messages.
+  /// See the functions of the same names for messages.
   ColourImage toColourImage() const {
     return raw ? mivo::toColourImage(*raw) : mivo::toColourImage(*compressed);
   }
@@ -50,7 +50,7 @@ struct DepthGeometry {
   Eigen::Isometry3d T_colour_depth;  ///< its pose in the colour camera
 };
 
-/// A colour image, the depth image that belongs to it, and the calibration of both.
+/// A colour image, its depth image, and the calibration of both.
 struct ImagePair {
   ImageMessageConstPtr colour;
   ImageMessageConstPtr depth;
@@ -60,7 +60,7 @@ struct ImagePair {
   std::optional<DepthGeometry> depth_geometry =
       std::nullopt;  ///< nothing: depth is registered to colour
 
-  /// When both were there.
+  /// Arrival of the later one.
   ros::WallTime arrival() const { return std::max(colour->arrival, depth->arrival); }
 };
 

@@ -40,7 +40,7 @@ void ImagePort::subscribe(const ros::NodeHandle& private_node) {
   } catch (const std::exception& error) {
     throw Error(
         "image transport '" + transport_ + "' of " + base_topic_ +
-        " cannot be used (raw, compressed and compressedDepth always can): " + error.what());
+        " is not available (raw, compressed and compressedDepth always are): " + error.what());
   }
 }
 

@@ -16,7 +16,7 @@ namespace mivo {
 /// compressedDepth are decoded by mivo itself; others need their image_transport plugin.
 class ImagePort {
  public:
-  /// @param callback  gets each message
+  /// @param callback  called with each message
   ImagePort(const ros::NodeHandle& node, const std::string& topic, const std::string& transport,
             int queue_size, std::function<void(const ImageMessageConstPtr&)> callback);
 

@@ -11,22 +11,21 @@
 namespace mivo {
 namespace {
 
-constexpr double kClockDifference = 10.0;  // s between stamps and clock that no latency explains
-constexpr int kFramesOffClock = 10;        // in a row, before it is said
+constexpr double kClockDifference = 10.0;  // s between stamps and clock: more than any latency
+constexpr int kFramesOffClock = 10;        // in a row, before the warning
 constexpr double kPlausibleDepth[] = {0.1, 30.0};  // m, of the median
 
 }  // namespace
 
 void InputWarnings::lookAtClock(double age) {
-  // A single frame may come before the clock that goes with it.
+  // The first frame may arrive before the first message of a simulated clock.
   const bool is_off = std::abs(age) > kClockDifference && !ros::Time::now().isZero();
   frames_off_clock_ = is_off ? frames_off_clock_ + 1 : 0;
   if (frames_off_clock_ < kFramesOffClock || has_warned_of_clock_) return;
   has_warned_of_clock_ = true;
   ROS_WARN(
-      "the images are %.0f s %s than the clock; for a bag set /use_sim_time to true before the "
-      "nodes "
-      "start and play it with --clock",
+      "image stamps are %.0f s %s than the clock; to play a bag, set /use_sim_time to true before "
+      "the nodes start, and play it with --clock",
       std::abs(age), age > 0.0 ? "older" : "newer");
 }
 
@@ -38,8 +37,8 @@ void InputWarnings::lookAtFrames(const ImagePair& pair, TransformSource& transfo
   if (!pair.depth_geometry && depth_frame != colour.frame_id && !has_warned_of_frames_) {
     has_warned_of_frames_ = true;
     ROS_WARN(
-        "colour is in the frame %s, depth in %s: the depth has to be registered to the colour "
-        "camera (depth_registration of the driver, or depth_image_proc/register)",
+        "color images have the frame_id %s, depth images %s: depth must be registered to the "
+        "color camera (depth_registration of the driver, or depth_image_proc/register)",
         colour.frame_id.c_str(), depth_frame.c_str());
   }
   lookAtParent(transforms);
@@ -53,8 +52,8 @@ void InputWarnings::lookAtParent(TransformSource& transforms) {
   if (parent.empty() || parent == parameters_.odom_frame) return;
   has_warned_of_parent_ = true;
   ROS_WARN(
-      "%s has another parent in tf, %s: a frame cannot have two; set publish_tf to false, or "
-      "guess_frame_id to %s",
+      "%s already has the parent %s in tf, and a frame has only one parent: set publish_tf to "
+      "false, or guess_frame_id to %s",
       parameters_.base_frame.c_str(), parent.c_str(), parent.c_str());
 }
 
@@ -72,8 +71,8 @@ void InputWarnings::lookAtDepth(const DepthSample& depth) {
   }
   has_warned_of_depth_ = true;
   ROS_WARN(
-      "the median depth is %g m: 16UC1 is taken as millimetres, 32FC1 as metres; does the "
-      "driver use another unit?",
+      "the median depth is %g m: 16UC1 is read as millimeters, 32FC1 as meters; check the unit of "
+      "the driver",
       depth.median);
 }
 

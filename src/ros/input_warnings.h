@@ -8,13 +8,13 @@
 
 namespace mivo {
 
-/// Says, each once, what in the messages and in tf cannot be right though it can be tracked.
+/// Warns, once each, of implausible messages and transforms that do not prevent tracking.
 class InputWarnings {
  public:
   explicit InputWarnings(const NodeParameters& parameters) : parameters_(parameters) {}
 
-  /// Frame names and stamps; to be asked before anything is published, for tf then has our
-  /// transform too.
+  /// Checks frame names and stamps. Call it before publishing, because tf then contains our own
+  /// transform as well.
   void lookAtFrames(const ImagePair& pair, TransformSource& transforms);
   void lookAtDepth(const DepthSample& depth);
   void lookAtCamera(const Camera& camera);

@@ -9,10 +9,10 @@
 
 namespace mivo {
 
-/// What a pair of messages says, ready for the tracker.
+/// A pair of messages converted for the tracker.
 struct MessageFrame {
   Camera camera;
-  Frame frame;  ///< refers to the pixels of the messages
+  Frame frame;  ///< references the pixels of the messages
 };
 
 /// What a pair of messages shows, before anything is made of the colours.
@@ -27,7 +27,7 @@ class FrameMaker {
  public:
   explicit FrameMaker(bool rectified) : rectified_(rectified) {}
 
-  /// Throws Error with the reason when a message cannot be used or they do not fit together.
+  /// Throws Error with the reason when a message cannot be used or the messages do not match.
   MessageFrame make(const ImagePair& pair);
 
   /// The same, with the colours. Throws Error when a message cannot be used.

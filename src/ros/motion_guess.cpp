@@ -19,15 +19,15 @@ void MotionGuess::look(const ros::Time& stamp,
   before_ = now_;
   now_ = {stamp, T_base_camera,
           transforms_.guessBase(stamp, ros::WallDuration(parameters_.tf_timeout))};
-  // It came too late for its own frame; without it no later frame of a loss could be guessed.
+  // This transform arrived too late for its own frame. Later frames of a loss need it as origin.
   if (origin_.T_base_camera && !origin_.T_guess_base) {
     origin_.T_guess_base = transforms_.guessBase(origin_.stamp, ros::WallDuration());
   }
   if (!now_.T_guess_base) {
     ROS_WARN_THROTTLE(kLogPeriod,
-                      "tf does not know where %s is in %s at the stamp of the frame (waited for "
+                      "tf has no transform from %s to %s at the stamp of the frame (waited for "
                       "%.3f s, parameter tf_timeout): tracking starts from its own prediction",
-                      parameters_.base_frame.c_str(), parameters_.guess_frame_id.c_str(),
+                      parameters_.guess_frame_id.c_str(), parameters_.base_frame.c_str(),
                       parameters_.tf_timeout);
   }
 }
@@ -45,8 +45,8 @@ std::optional<Eigen::Isometry3d> MotionGuess::start(const std::optional<StampedP
                                                     const LossParameters& limits) {
   if (hasJumped(limits)) {
     ROS_WARN_THROTTLE(kLogPeriod,
-                      "%s went faster in %s than lost_speed and lost_turn_rate allow (was that "
-                      "odometry reset?): it is not believed until a pose has been measured again",
+                      "%s moved in %s faster than lost_speed and lost_turn_rate allow (was that "
+                      "odometry reset?): it is ignored until a pose has been measured again",
                       parameters_.base_frame.c_str(), parameters_.guess_frame_id.c_str());
     origin_ = Sight();
   }

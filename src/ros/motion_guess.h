@@ -13,31 +13,31 @@
 
 namespace mivo {
 
-/// Where another odometry says that the camera is. The motion is counted from the last pose that
-/// was measured, so that it is whole however long the camera has been lost. One thread's own.
+/// Pose of the camera by another odometry: the last measured pose, moved by the other odometry
+/// since then, however long the camera has been lost. Not thread-safe.
 class MotionGuess {
  public:
-  /// Without a guess_frame_id it asks nothing and knows nothing.
+  /// Does nothing without guess_frame_id.
   MotionGuess(TransformSource& transforms, const NodeParameters& parameters)
       : transforms_(transforms), parameters_(parameters) {}
 
-  /// Asks tf where the base is at the stamp of a frame, and waits for the answer: up to tf_timeout.
+  /// Looks up the base at the stamp of a frame, waiting for tf_timeout at most.
   void look(const ros::Time& stamp, const std::optional<Eigen::Isometry3d>& T_base_camera);
 
-  /// Where the camera is in the tracker's world at the frame looked at, T_odom_camera; nothing when
-  /// one end of the motion is not known. A base that went faster than the limits was put elsewhere
-  /// by the other odometry: nothing is guessed then before a pose has been measured again.
+  /// T_odom_camera at the current frame; empty when one end of the motion is not known. If the base
+  /// moved faster than the limits, the other odometry was reset: there is no guess until a pose has
+  /// been measured again.
   std::optional<Eigen::Isometry3d> start(const std::optional<StampedPose>& last_measured,
                                          const LossParameters& limits);
 
-  /// The pose of the frame looked at was measured: motion is counted from there.
+  /// The pose of the current frame was measured: it becomes the origin of the motion.
   void keep() { origin_ = now_; }
 
-  /// Pose of the base in the other odometry's frame, at the frame looked at.
+  /// Pose of the base in the other odometry's frame, at the current frame.
   const std::optional<Eigen::Isometry3d>& T_guess_base() const { return now_.T_guess_base; }
 
  private:
-  struct Sight {  // of the base, by the other odometry
+  struct Sight {  // pose of the base by the other odometry
     ros::Time stamp;
     std::optional<Eigen::Isometry3d> T_base_camera;
     std::optional<Eigen::Isometry3d> T_guess_base;

@@ -8,9 +8,9 @@
 
 namespace mivo {
 
-/// Full name of a topic beside a node: `odom` of /robot/odometry is /robot/odom. To be used instead
-/// of relative names, for a nodelet's handle of the root namespace stands for the namespace of its
-/// manager: /camera/odom, and remappings of /odom would not be found.
+/// Full name of a topic beside a node: `odom` of /robot/odometry is /robot/odom. Relative names
+/// would be resolved in the namespace of the nodelet manager (/camera/odom), where remappings of
+/// /odom have no effect.
 /// @param private_node  handle of the node's own namespace
 inline std::string topicBeside(const ros::NodeHandle& private_node, const std::string& topic) {
   const std::string parent = ros::names::parentNamespace(private_node.getNamespace());

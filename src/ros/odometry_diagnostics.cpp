@@ -75,7 +75,7 @@ void OdometryDiagnostics::tracking(Wrapper& status) {
   status.add("points", last_.points);
   status.addf("overlap", "%.2f", last_.overlap);
   status.addf("mutual information (nats)", "%.3f", last_.mutual_information);
-  status.addf("residual scale (grey levels)", "%.2f", last_.residual_scale);
+  status.addf("residual scale (gray levels)", "%.2f", last_.residual_scale);
   status.addf("rolling shutter read-out (ms)", "%.1f", 1e3 * last_.rolling_shutter_readout);
   status.addf("time offset of depth (ms)", "%.1f", 1e3 * last_.depth_time_offset);
   if (!fault_.empty()) {
@@ -110,7 +110,7 @@ void OdometryDiagnostics::input(Wrapper& status) {
   for (const Sample& sample : samples_) offsets.push_back(sample.pairing_offset);
   status.addf("pairs (Hz)", "%.1f", seconds_ > 0.0 ? pairs / seconds_ : 0.0);
   if (!offsets.empty()) {
-    status.addf("depth later than colour (ms, median)", "%.1f", 1e3 * quantile(offsets, 0.5));
+    status.addf("depth later than color (ms, median)", "%.1f", 1e3 * quantile(offsets, 0.5));
   }
   status.addf("pixels with depth", "%.2f", depth_.coverage);
   status.addf("median depth (m)", "%.2f", depth_.median);
@@ -123,12 +123,12 @@ void OdometryDiagnostics::input(Wrapper& status) {
     status.summary(Level::WARN, "no frames");
   } else if (slowest > 1.0 && pairs + 1.0 < kPairedPart * slowest) {
     status.summary(Level::WARN,
-                   "many images find no partner: too slow, or colour and depth run at different "
-                   "rates (auto exposure slows the colour stream of some cameras)");
+                   "many images have no partner: tracking is too slow, or color and depth have "
+                   "different rates (auto exposure slows the color stream of some cameras)");
   } else if (depth_.coverage < kMinCoverage) {
     status.summary(Level::WARN, "few pixels have depth");
   } else {
-    status.summary(Level::OK, "frames come in");
+    status.summary(Level::OK, "receiving frames");
   }
 }
 
@@ -143,7 +143,7 @@ void OdometryDiagnostics::processing(Wrapper& status) {
     processing.push_back(sample.processing_latency);
   }
   if (cpu.empty()) {
-    status.summary(Level::OK, "nothing to do");
+    status.summary(Level::OK, "no frames");
     return;
   }
   status.addf("processor time of a frame (ms, median)", "%.1f", quantile(cpu, 0.5));

@@ -15,14 +15,13 @@
 
 namespace mivo {
 
-/// The odometry's entries on /diagnostics: tracking, input, processing. May be called from any
-/// thread.
+/// Entries on /diagnostics: tracking, input, processing. Thread-safe.
 class OdometryDiagnostics {
  public:
   OdometryDiagnostics(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
                       const std::string& name);
 
-  /// A fault that keeps the node from working at all, an unusable parameter say.
+  /// A fault that prevents the node from working, such as an invalid parameter.
   void setFault(const std::string& fault);
   void setPaused(bool paused);
 
@@ -41,7 +40,7 @@ class OdometryDiagnostics {
     ros::WallTime arrival;
     double cpu_ms;
     double latency;             // s, since the stamp
-    double processing_latency;  // s, since the images came
+    double processing_latency;  // s, since the arrival of the images
     double pairing_offset;
   };
 
@@ -51,11 +50,11 @@ class OdometryDiagnostics {
   TrackingStatus last_;
   DepthSample depth_;
   SkipCounts skipped_;
-  std::uint64_t skipped_before_ = 0;  // when published last
+  std::uint64_t skipped_before_ = 0;  // at the last publication
   std::uint64_t dropped_ = 0;
   std::vector<InputCount> counts_;
   std::vector<InputCount> counts_before_;
-  double seconds_ = 0.0;  // since published last
+  double seconds_ = 0.0;  // since the last publication
   ros::WallTime last_publication_;
   std::deque<Sample> samples_;  // of the last seconds
   diagnostic_updater::Updater updater_;

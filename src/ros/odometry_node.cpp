@@ -76,9 +76,9 @@ OdometryNode::~OdometryNode() {
 void OdometryNode::enqueue(const ImagePair& pair) {
   frames_.push(pair);
   if (parameters_.drop_frames || frames_.dropped() == 0) return;
-  ROS_WARN_THROTTLE(kLogPeriod,
-                    "more than %zu frames wait: the oldest are dropped, %lu so far; play slower",
-                    kMaxBacklog, static_cast<unsigned long>(frames_.dropped()));
+  ROS_WARN_THROTTLE(
+      kLogPeriod, "more than %zu frames wait: the oldest are dropped, %lu so far; play more slowly",
+      kMaxBacklog, static_cast<unsigned long>(frames_.dropped()));
 }
 
 void OdometryNode::work() {
@@ -87,13 +87,15 @@ void OdometryNode::work() {
     if (!ros::ok()) {
       if (!closed) closed = ros::WallTime::now();
       if ((ros::WallTime::now() - *closed).toSec() > kMaxDrain) {
-        ROS_ERROR_STREAM("ended before " << frames_.clear() + 1
-                                         << " waiting frames were tracked: play slower (rate)");
+        ROS_ERROR_STREAM("stopped with " << frames_.clear() + 1
+                                         << " frames not tracked: play the bag more slowly (rate)");
         return;
       }
     }
     if (frames_.size() > kLongBacklog) {
-      ROS_WARN_THROTTLE(kLogPeriod, "%zu frames wait: tracking is slower than the bag; play slower",
+      ROS_WARN_THROTTLE(kLogPeriod,
+                        "%zu frames are waiting: tracking is slower than playback; play the bag "
+                        "more slowly (rate)",
                         frames_.size());
     }
     if (has_reset_.exchange(false)) order_.restart();
@@ -124,7 +126,7 @@ void OdometryNode::process(ImagePair pair, bool is_new_time) {
     const MessageFrame input = frame_maker_->make(pair);
     if (repeated_.check(input.frame)) throw Error(RepeatedImage::kReason);
     track(pair, input, threadMilliseconds() - begin);
-  } catch (const std::exception& error) {  // whatever it is: the manager's other nodelets go on
+  } catch (const std::exception& error) {  // no exception may end the nodelet manager
     skipped_.add(error.what(), ros::WallTime::now());
   }
 }
@@ -142,7 +144,7 @@ void OdometryNode::refuse(const ImagePair& pair, StampFault fault) {
 }
 
 void OdometryNode::restartAfterJump() {
-  ROS_WARN("time was set back (a looped bag?): tracking starts anew at the last pose");
+  ROS_WARN("time was set back (a looped bag?): tracking restarts at the last pose");
   const std::lock_guard<std::mutex> lock(mutex_);
   session_.restart();
   startTrajectory();
@@ -151,7 +153,7 @@ void OdometryNode::restartAfterJump() {
 void OdometryNode::startTrajectory() {
   try {
     trajectory_.startAnew();
-  } catch (const Error& error) {  // poses are kept all the same, as in record()
+  } catch (const Error& error) {  // the poses stay in memory, as in record()
     ROS_ERROR("%s", error.what());
   }
 }
@@ -160,7 +162,8 @@ void OdometryNode::track(const ImagePair& pair, const MessageFrame& input, doubl
   const std_msgs::Header& header = pair.colour->header;
   const std::optional<Eigen::Isometry3d> T_base_camera =
       transforms_.baseCamera(header.frame_id, header.stamp);
-  guess_.look(header.stamp, T_base_camera);  // waits for tf: services must not wait for that too
+  guess_.look(header.stamp,
+              T_base_camera);  // waits for tf, without the mutex: services must not wait
   warnings_.lookAtFrames(pair, transforms_);
   warnings_.lookAtCamera(input.camera);
 
@@ -196,7 +199,7 @@ void OdometryNode::publishStatus(const TrackingResult& result, FrameAccount& acc
 
 const TrackingResult& OdometryNode::follow(const MessageFrame& input) {
   if (session_.setCamera(input.camera)) {
-    ROS_WARN("the camera's calibration has changed: tracking starts anew at the last pose");
+    ROS_WARN("the camera's calibration has changed: tracking restarts at the last pose");
   }
   const std::optional<Eigen::Isometry3d> start =
       guess_.start(session_.lastMeasured(), session_.parameters().loss);

@@ -32,15 +32,15 @@
 
 namespace mivo {
 
-/// The odometry as a ROS node: three threads of its own, so that a manager is never held up. One
-/// receives and pairs images, one tracks, one answers services.
+/// The odometry as a ROS node. Three threads of its own never block a nodelet manager: one receives
+/// and pairs images, one tracks, one answers services.
 class OdometryNode : private OdometryActions {
  public:
-  /// Throws Error for parameters that cannot be used.
+  /// Throws Error for invalid parameters.
   OdometryNode(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
                OdometryDiagnostics& diagnostics);
 
-  /// Tracks what still waits (with drop_frames: false), then ends.
+  /// Tracks waiting frames (with drop_frames: false) before it returns.
   ~OdometryNode();
 
  private:
@@ -73,13 +73,13 @@ class OdometryNode : private OdometryActions {
   FrameQueue<ImagePair> frames_;
   SkippedFrames skipped_;
   std::atomic<bool> paused_{false};
-  InputWarnings warnings_;       // the worker's own, as the next three
+  InputWarnings warnings_;       // used by the worker only, as the next three
   FrameOrder<ImagePair> order_;  // whose stamps are believed
   std::optional<FrameMaker> frame_maker_;
   RepeatedImage repeated_;
   std::atomic<bool> has_reset_{false};  // told to the worker
 
-  std::mutex mutex_;  // guards the tracker and what belongs to it, from here to the empty line
+  std::mutex mutex_;  // guards the members up to the empty line
   TrackingSession session_;
   TrajectoryRecorder trajectory_;
   OdometryOutput output_;
@@ -87,7 +87,7 @@ class OdometryNode : private OdometryActions {
   std::uint64_t num_frames_ = 0;
 
   TransformSource transforms_;
-  MotionGuess guess_;  // the worker's own
+  MotionGuess guess_;  // used by the worker only
   std::unique_ptr<FrameInput> input_;
   std::unique_ptr<OdometryServices> services_;
   std::unique_ptr<ReconfigureServer> reconfigure_;

@@ -11,9 +11,9 @@
 
 namespace mivo {
 
-/// The odometry in a nodelet manager, or alone (odometry_node). With parameters that cannot be used
-/// it stays idle and says why, in the log and on /diagnostics; the manager and its others go on.
-/// With `required` it fails to load.
+/// The odometry in a nodelet manager, or alone (odometry_node). With invalid parameters it stays
+/// idle and reports why in the log and on /diagnostics; other nodelets of the manager are not
+/// affected. With `required` it fails to load.
 class OdometryNodelet : public nodelet::Nodelet {
  public:
   ~OdometryNodelet() override {
@@ -28,7 +28,7 @@ class OdometryNodelet : public nodelet::Nodelet {
     try {
       node_ =
           std::make_unique<OdometryNode>(getNodeHandle(), getPrivateNodeHandle(), *diagnostics_);
-    } catch (const std::exception& error) {  // whatever it is: the manager goes on
+    } catch (const std::exception& error) {  // no exception may end the nodelet manager
       if (getPrivateNodeHandle().param("required", false)) {
         NODELET_ERROR_STREAM("cannot start: " << error.what());
         // The manager refuses to load it, and then unloads this library: an exception of a type

@@ -35,7 +35,8 @@ void OdometryOutput::publishDisplay(const TrackingSession& session,
 void OdometryOutput::setPose(const Eigen::Isometry3d& T_odom_base, const TrackingSession& session) {
   if (!T_odom_world_) {
     throw Error(
-        "no pose has been published yet: there is no frame, or tf does not know the camera");
+        "no pose has been published yet: no frame has arrived, or tf has no transform to the "
+        "camera");
   }
   const Eigen::Isometry3d T_odom_world =
       T_odom_base * T_base_camera_ * session.result().T_odom_camera.inverse();

@@ -14,13 +14,14 @@
 
 namespace mivo {
 
-/// What goes out of poses: odom, tf, path and what is there to be looked at. All of it is seen from
-/// the odometry frame, which is where the base was at the first frame, unless it was moved.
+/// Publishes odom, tf, path and display topics, all in the odometry frame. It is the pose of the
+/// base at the first frame, unless it was moved.
 class OdometryOutput {
  public:
   OdometryOutput(const ros::NodeHandle& private_node, const NodeParameters& parameters);
 
-  /// Publishes the pose of the session's last frame, if it is one.
+  /// Publishes the pose of the session's last frame, if it was measured or publish_when_lost is
+  /// set.
   /// @param T_base_camera  at the frame
   /// @param T_guess_base   see OdometryPublisher::publish
   void publishOdometry(const TrackingSession& session, const ros::Time& stamp,
@@ -36,14 +37,14 @@ class OdometryOutput {
   /// pose.
   void setPose(const Eigen::Isometry3d& T_odom_base, const TrackingSession& session);
 
-  /// The odometry frame is where the base is at the next frame.
+  /// The pose of the base at the next frame becomes the odometry frame.
   void reset();
 
  private:
   NodeParameters parameters_;
   OdometryPublisher publisher_;
   DisplayPublisher display_;
-  std::optional<Eigen::Isometry3d> T_odom_world_;  // known once tf has said where the camera sits
+  std::optional<Eigen::Isometry3d> T_odom_world_;  // known once tf has the transform to the camera
   Eigen::Isometry3d T_base_camera_ = Eigen::Isometry3d::Identity();  // of the last frame
 };
 

@@ -26,7 +26,7 @@ class OdometryPublisher {
 
   void publish(const TrackingStatus& status) { status_.publish(status); }
 
-  /// Moves the path along when the odometry frame is moved.
+  /// Transforms the path after the odometry frame was moved.
   void movePath(const Eigen::Isometry3d& T_new_old);
   void clearPath();
 

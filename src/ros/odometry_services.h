@@ -12,7 +12,7 @@
 
 namespace mivo {
 
-/// What the services ask for. Each may throw Error, whose text becomes the answer.
+/// Actions of the services. Each may throw Error, whose text becomes the response.
 class OdometryActions {
  public:
   virtual ~OdometryActions() = default;

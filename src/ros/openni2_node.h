@@ -20,12 +20,10 @@
 
 namespace mivo {
 
-/// The camera node: everything that ROS sees of a CameraThread. Nothing here waits for USB, only
-/// the destructor does.
+/// The camera node, ROS interface of a CameraThread. Only its destructor waits for USB.
 class OpenNi2Node : private CameraListener {
  public:
-  /// Throws Error for parameters that cannot be used. A camera that is missing is no error: the
-  /// node waits for it.
+  /// Throws Error for invalid parameters. A missing camera is not an error: the node waits for it.
   OpenNi2Node(const ros::NodeHandle& node, const ros::NodeHandle& private_node,
               const std::string& name);
   ~OpenNi2Node() override;
@@ -47,7 +45,7 @@ class OpenNi2Node : private CameraListener {
   const CameraParameters parameters_;
   tf2_ros::StaticTransformBroadcaster broadcaster_;
 
-  mutable std::mutex mutex_;  ///< guards the next three, held for moments only
+  mutable std::mutex mutex_;  ///< guards the next three members, held briefly
   StreamDemand demand_;
   std::optional<CameraSettings> true_settings_;  ///< read back, not yet published
   CameraThread* running_thread_ = nullptr;

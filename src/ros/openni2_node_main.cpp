@@ -9,7 +9,7 @@
 #include <string>
 
 int main(int argc, char** argv) {
-  if (argc == 2 && std::string(argv[1]) == "--help") {  // ros::init would wait for a master
+  if (argc == 2 && std::string(argv[1]) == "--help") {  // ros::init waits for a master
     std::cout << "Usage: rosrun mivo openni2_node [_PARAMETER:=VALUE...] [TOPIC:=OTHER...]\n"
                  "Topics, services and parameters: doc/xtion.md\n";
     return 0;
@@ -19,9 +19,10 @@ int main(int argc, char** argv) {
   const nodelet::M_string remappings(ros::names::getRemappings());
   const nodelet::V_string arguments(argv + 1, argv + argc);
   if (!loader.load(ros::this_node::getName(), "mivo/OpenNI2Nodelet", remappings, arguments)) {
-    std::cerr << "openni2_node: the nodelet mivo/OpenNI2Nodelet cannot be loaded; source the "
-                 "workspace's setup.bash, or set CMAKE_PREFIX_PATH and ROS_PACKAGE_PATH, and see "
-                 "that mivo was built where libopenni2-dev is installed\n";
+    std::cerr
+        << "openni2_node: cannot load the nodelet mivo/OpenNI2Nodelet; source the workspace's "
+           "setup.bash, or set CMAKE_PREFIX_PATH and ROS_PACKAGE_PATH, and check that mivo was "
+           "built with libopenni2-dev installed\n";
     return 1;
   }
   ros::spin();

@@ -11,14 +11,14 @@
 
 namespace mivo {
 
-/// The camera in a nodelet manager, or alone (openni2_node). With parameters that cannot be used it
-/// stays idle and says why, in the log and on /diagnostics; the manager and its others go on.
+/// The camera in a nodelet manager, or alone (openni2_node). With invalid parameters it stays idle
+/// and reports why in the log and on /diagnostics; other nodelets of the manager are not affected.
 class OpenNI2Nodelet : public nodelet::Nodelet {
  private:
   void onInit() override {
     try {
       node_ = std::make_unique<OpenNi2Node>(getNodeHandle(), getPrivateNodeHandle(), getName());
-    } catch (const std::exception& error) {  // whatever it is: the manager goes on
+    } catch (const std::exception& error) {  // no exception may end the nodelet manager
       NODELET_ERROR_STREAM("idle: " << error.what());
       fault_ = error.what();
       updater_ = std::make_unique<diagnostic_updater::Updater>(getNodeHandle(),

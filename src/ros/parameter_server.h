@@ -23,11 +23,11 @@ Parameters readParameters(const ros::NodeHandle& node);
 std::vector<std::string> findUnknownParameters(const ros::NodeHandle& node,
                                                const std::vector<std::string>& others);
 
-/// Writes all values to the parameter server, so that what is in effect can be read there.
+/// Writes all values in effect to the parameter server.
 void writeParameters(const ros::NodeHandle& node, const Parameters& parameters);
 
 /// `parameters` changed by a request of dynamic_reconfigure. Throws Error, as readParameters does,
-/// when any of the values cannot be taken.
+/// when any of the values is invalid.
 Parameters changed(const Parameters& parameters, const dynamic_reconfigure::Config& request);
 
 /// All values as dynamic_reconfigure reports them.

@@ -10,12 +10,11 @@
 
 namespace mivo {
 
-/// The tracker's parameters for the clients of dynamic_reconfigure. Its own server silently moves a
-/// value that is out of range to the nearest bound; here the whole request is refused, and the
-/// client is told why.
+/// dynamic_reconfigure server of the tracker's parameters. The standard server silently clamps
+/// values that are out of range; this one rejects the whole request and reports why.
 class ReconfigureServer {
  public:
-  /// @param apply  takes over the parameters, which are valid; called by the queue of the node
+  /// @param apply  called with the new, valid parameters; called by the queue of the node
   /// handle
   ReconfigureServer(const ros::NodeHandle& private_node, const Parameters& parameters,
                     std::function<void(const Parameters&)> apply);

@@ -8,7 +8,7 @@
 
 namespace mivo {
 
-/// What a parameter's value is, in words: "a whole number", "a string".
+/// Type of a value in words: "a whole number", "a string".
 std::string typeText(const XmlRpc::XmlRpcValue& value);
 
 // Reads a parameter of a node's own name, when it is set. Throws Error, naming it, when it does not

@@ -7,7 +7,7 @@ namespace mivo {
 namespace {
 
 constexpr double kReminderPeriod = 60.0;  // s
-// Reasons that name a number may have no end: the rest count as one.
+// Reasons may contain numbers and be unlimited: further ones are counted together.
 constexpr std::size_t kMaxReasons = 20;
 constexpr char kOtherReasons[] = "other reasons";
 

@@ -10,19 +10,18 @@
 
 namespace mivo {
 
-/// How many frames were skipped, and why.
+/// Numbers of skipped frames by reason.
 struct SkipCounts {
   std::uint64_t total = 0;
   std::string last_reason;
   std::map<std::string, std::uint64_t> by_reason;
 };
 
-/// Frames that have no pose because they could not be used or were refused. May be called from any
-/// thread.
+/// Counts frames that were unusable or refused. Thread-safe.
 class SkippedFrames {
  public:
-  /// Counts a frame, and tells a new reason at once, one that lasts every minute. Returns whether
-  /// it was told.
+  /// Counts a frame. Logs a new reason at once, a repeated one at most once a minute. Returns
+  /// whether it was logged.
   bool add(const std::string& reason, const ros::WallTime& now);
 
   SkipCounts counts() const;

@@ -5,12 +5,12 @@
 
 namespace mivo {
 
-/// Seconds of a stamp, rounded once: the same double that reading the stamp's decimals from a text
-/// file gives, so that bags and folders agree to the bit.
+/// Seconds of a stamp, rounded once: the same double as when parsing its decimals from a text file,
+/// so that bags and folders agree bit by bit.
 double toSeconds(const ros::Time& time);
 
-/// Stamp nearest to the seconds. Throws Error for what ros::Time cannot hold: negative, later than
-/// 2106, not finite.
+/// Stamp nearest to the seconds. Throws Error for values that ros::Time cannot represent: negative,
+/// later than 2106, not finite.
 ros::Time toTime(double seconds);
 
 }  // namespace mivo

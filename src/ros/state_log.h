@@ -9,16 +9,15 @@
 
 namespace mivo {
 
-/// Tells in the log when the state of tracking changes, and when its reason does, though that not
-/// more often than every few seconds.
+/// Logs changes of the tracking state, and changes of its reason at most every few seconds.
 class StateLog {
  public:
-  /// Returns whether there was something to tell.
+  /// Returns whether something was logged.
   bool add(const TrackingResult& result, const ros::WallTime& now);
 
  private:
   TrackingState state_ = TrackingState::kInitialising;
-  std::string reason_;  // told last
+  std::string reason_;  // logged last
   ros::WallTime told_;
 };
 

@@ -7,8 +7,7 @@
 
 namespace mivo {
 
-/// What there is to say of a frame beside the tracker's result: the part of TrackingStatus that the
-/// node knows, in its units.
+/// The part of TrackingStatus that is known by the node, not by the tracker.
 struct FrameAccount {
   std_msgs::Header header;  ///< of the colour image
   std::uint64_t frames = 0;

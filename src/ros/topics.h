@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-// Names that launch files, bags and other nodes rely on.
+// Names used by launch files, bags and other nodes.
 
 namespace mivo {
 namespace topics {
@@ -26,7 +26,7 @@ constexpr char kSetPose[] = "set_pose";
 constexpr char kPause[] = "pause";
 constexpr char kSaveTrajectory[] = "save_trajectory";
 
-// What sequence_to_bag adds when the folder has a ground truth.
+// Added by sequence_to_bag when the folder has ground truth.
 constexpr char kGroundTruth[] = "/ground_truth";
 constexpr char kStaticTransforms[] = "/tf_static";
 

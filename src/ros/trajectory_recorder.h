@@ -11,23 +11,22 @@
 
 namespace mivo {
 
-/// Keeps the poses of the camera since the last start for the service, and writes them to a file
-/// while they come when the parameters ask for it.
+/// Keeps the poses of the camera since the last start for the service, and optionally writes them
+/// to a file immediately.
 class TrajectoryRecorder {
  public:
   /// Throws Error when the file of the parameters exists already or cannot be written.
   explicit TrajectoryRecorder(const NodeParameters& parameters);
 
-  /// Throws Error when the file cannot be written; the pose is kept all the same.
+  /// Throws Error when the file cannot be written; the pose is kept nevertheless.
   void add(const StampedPose& pose);
 
-  /// A new trajectory, which is not the continuation of the last: after a reset, or when time was
-  /// set back. The file is complete; the next pose begins another one, name_2.txt after name.txt.
-  /// Throws Error when that one cannot be written.
+  /// Starts a new trajectory after a reset or when time was set back. The current file is complete;
+  /// the next one is name_2.txt after name.txt. Throws Error when it cannot be written.
   void startAnew();
 
-  /// Writes what was kept. A relative path lies in the trajectory_folder. Returns the path. Throws
-  /// Error when there is no pose yet, or the file exists and may not be replaced.
+  /// Writes the kept poses. A relative path is resolved in trajectory_folder. Returns the path.
+  /// Throws Error when there is no pose yet, or the file exists and may not be replaced.
   std::string save(const std::string& path, Overwrite overwrite) const;
 
   std::size_t size() const { return poses_.size(); }

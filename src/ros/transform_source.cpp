@@ -12,18 +12,19 @@ constexpr double kReminderPeriod = 10.0;  // s
 constexpr double kPollPeriod = 0.001;     // s
 constexpr double kIdentityTolerance = 1e-6;
 
-/// tf2 knows frames without a leading slash only; old bags have it.
+/// tf2 accepts only frames without a leading slash; old bags have one.
 std::string withoutSlash(const std::string& frame) {
   return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
 }
 
-/// An optical frame looks along z, a body frame along x: equal axes mean that somebody forgot it.
+/// An optical frame looks along z, a body frame along x: equal axes mean a missing rotation.
 void warnOfMissingRotation(const Eigen::Isometry3d& T_base_camera, const std::string& base,
                            const std::string& camera) {
   if (!T_base_camera.linear().isIdentity(kIdentityTolerance)) return;
   ROS_WARN(
-      "the axes of %s and of the camera's optical frame %s are the same: the optical frame has z "
-      "forward, the base has x forward (REP 103); the odometry will lie on its side",
+      "%s and the camera's optical frame %s have the same axes, but an optical frame has z "
+      "forward and a base frame x forward (REP 103): the odometry will be rotated; check the "
+      "transform",
       base.c_str(), camera.c_str());
 }
 
@@ -51,8 +52,8 @@ std::optional<Eigen::Isometry3d> TransformSource::baseCamera(const std::string& 
   if (!T_base_camera_) {
     ROS_WARN_THROTTLE(
         kReminderPeriod,
-        "no odometry is published before tf knows the transform from %s to the camera's "
-        "frame %s: %s (parameter base_frame)",
+        "no odometry is published until tf has the transform from %s to the camera's frame %s: %s "
+        "(parameter base_frame)",
         base_frame_.c_str(), camera.empty() ? "(empty)" : camera.c_str(), fault.c_str());
   }
   return T_base_camera_;
@@ -60,7 +61,7 @@ std::optional<Eigen::Isometry3d> TransformSource::baseCamera(const std::string& 
 
 std::optional<Eigen::Isometry3d> TransformSource::guessBase(const ros::Time& stamp,
                                                             const ros::WallDuration& timeout) {
-  // Waited for in wall time: a simulated clock may stand still.
+  // The wait is in wall time: a simulated clock may stand still.
   const ros::WallTime deadline = ros::WallTime::now() + timeout;
   while (!buffer_.canTransform(guess_frame_, base_frame_, stamp)) {
     if (ros::WallTime::now() >= deadline) return std::nullopt;
@@ -69,7 +70,7 @@ std::optional<Eigen::Isometry3d> TransformSource::guessBase(const ros::Time& sta
   try {
     return toIsometry(buffer_.lookupTransform(guess_frame_, base_frame_, stamp).transform);
   } catch (const std::exception&) {
-    return std::nullopt;  // forgotten between the two calls: as good as unknown
+    return std::nullopt;  // removed from the buffer between the two calls
   }
 }
 

@@ -11,19 +11,18 @@
 
 namespace mivo {
 
-/// What the odometry asks tf. Listens with a thread of its own.
+/// tf lookups of the odometry, with a listener thread of its own.
 class TransformSource {
  public:
   TransformSource(const ros::NodeHandle& node, const std::string& base_frame,
                   const std::string& guess_frame);
 
-  /// Camera on the base at a time: without waiting, the one of that time, the latest one, or the
-  /// last that was ever known; nothing before that. Says once why, and every ten seconds, what is
-  /// missing.
+  /// T_base_camera without waiting: at the given time, or the latest one, or the last known one;
+  /// empty if there was none yet. Warns every ten seconds while it is missing.
   std::optional<Eigen::Isometry3d> baseCamera(const std::string& camera_frame,
                                               const ros::Time& stamp);
 
-  /// Pose of the base in the frame of another odometry, T_guess_base; nothing when tf does not know
+  /// Pose of the base in the frame of another odometry, T_guess_base; empty when tf does not have
   /// it within `timeout`.
   std::optional<Eigen::Isometry3d> guessBase(const ros::Time& stamp,
                                              const ros::WallDuration& timeout);

@@ -5,13 +5,13 @@
 
 namespace mivo {
 
-/// A look at the depth, at every eighth pixel of every eighth row.
+/// Statistics of a depth image, from every eighth pixel of every eighth row.
 struct DepthSample {
   double coverage = 0.0;  ///< part of the pixels with a reading, 0 to 1
   double median = 0.0;    ///< m, of the readings; 0: none
 };
 
-/// Of a frame that fits its camera.
+/// Precondition: the frame matches its camera.
 DepthSample sampleDepth(const Frame& frame);
 
 /// How the values of a 16-bit depth image are stored, as far as they show it.

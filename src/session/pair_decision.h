@@ -12,7 +12,7 @@ struct WaitingStamps {
   double next = 0.0;           ///< no further image is expected to be older than this
 };
 
-/// What is certain of an image that waits.
+/// What is certain about a waiting image.
 struct PairFate {
   enum class Kind { kOpen, kPaired, kSingle };
   Kind kind = Kind::kOpen;

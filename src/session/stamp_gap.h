@@ -8,7 +8,7 @@
 
 namespace mivo {
 
-/// Smallest time between two stamps of a stream, of the last second or so.
+/// Smallest interval between stamps of a stream, over about the last second.
 class StampGap {
  public:
   void add(double stamp) {
@@ -19,7 +19,7 @@ class StampGap {
     last_ = stamp;
   }
 
-  /// s; zero until some stamps have been seen.
+  /// s; zero until enough stamps were added.
   double smallest() const {
     return gaps_.size() < kEnough ? 0.0 : *std::min_element(gaps_.begin(), gaps_.end());
   }

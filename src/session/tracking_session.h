@@ -9,8 +9,9 @@
 
 namespace mivo {
 
-/// The odometry of one camera over resets, jumps of time and changes of the calibration: keeps the
-/// pose, and numbers segments and keyframes through. Its world is the first camera pose.
+/// The odometry of one camera across resets, jumps of time and changes of the calibration. Keeps
+/// the pose and continues the numbering of segments and keyframes. The world is the first camera
+/// pose.
 class TrackingSession {
  public:
   explicit TrackingSession(const Parameters& parameters) : parameters_(parameters) {}
@@ -20,14 +21,14 @@ class TrackingSession {
   bool setCamera(const Camera& camera);
   bool hasCamera() const { return odometry_ != nullptr; }
 
-  /// Tracks a frame, from `start` when there is one: where another odometry says that the camera is
-  /// now, see lastMeasured(). A camera must have been set.
+  /// Tracks a frame, starting at `start` if given: the pose by another odometry, see
+  /// lastMeasured(). Precondition: a camera was set.
   const TrackingResult& process(const Frame& frame, const Eigen::Isometry3d* start);
 
-  /// Starts anew at the last pose; stamps may begin anywhere.
+  /// Restarts at the last pose; stamps may start at any time.
   void restart();
 
-  /// Starts anew at the origin.
+  /// Restarts at the origin.
   void reset();
 
   /// Throws Error and changes nothing when a value is invalid.
@@ -36,15 +37,14 @@ class TrackingSession {
 
   const TrackingResult& result() const { return result_; }
 
-  /// The last pose that was measured, T_odom_camera, and its stamp: what a guess of the present one
-  /// has to start from, however long the camera has been lost since. Nothing before the first
-  /// frame, and after a start at a pose that was given (reset) or at another time (restart).
+  /// The last measured T_odom_camera and its stamp: the origin of a guess by another odometry.
+  /// Empty before the first frame and after reset() or restart().
   const std::optional<StampedPose>& lastMeasured() const { return last_measured_; }
 
   /// Covariance of result().velocity, in the axes of the camera.
   const Matrix6& twistCovariance() const { return twist_covariance_; }
 
-  /// For display. A camera must have been set.
+  /// For display. Precondition: a camera was set.
   const Odometry& odometry() const { return *odometry_; }
 
  private:

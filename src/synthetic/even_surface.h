@@ -3,7 +3,7 @@
 
 #include "synthetic/scene_builder.h"
 
-// What the scenes of one surface have in common.
+// Common part of the scenes of one surface.
 
 namespace mivo {
 

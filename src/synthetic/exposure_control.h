@@ -34,7 +34,7 @@ class ExposureControl {
   /// Setting of the frame that is about to be taken.
   const ExposureSetting& current() const { return current_; }
 
-  /// Tells how that frame came out, and moves on to the next one.
+  /// Reports the mean value of that frame and proceeds to the next one.
   void advance(double mean_grey, const Imager& imager);
 
   /// time * gain that would bring the measured mean to the target.

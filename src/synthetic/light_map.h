@@ -10,8 +10,8 @@
 
 namespace mivo {
 
-/// What depends on the place in the scene alone, computed once: which part of each lamp a surface
-/// sees (soft shadows), how open it lies to the light of the room, and its stains.
+/// Data that depend on the position in the scene only, computed once: which part of each lamp a
+/// surface sees (soft shadows), how open it lies to the light of the room, and its stains.
 class LightMap {
  public:
   struct Node {

@@ -32,7 +32,7 @@ struct Shutter {
 using PoseAtTime = std::function<Eigen::Isometry3d(double)>;  ///< T_world_camera, optical frame
 using LightAtTime = std::function<LightState(double)>;
 
-/// What the depth sensor needs to know of each pixel.
+/// Data of a pixel for the depth sensor.
 struct SurfaceImage {
   cv::Mat depth;  ///< CV_32FC1, metres along the optical axis; 0: nothing there
   cv::Mat

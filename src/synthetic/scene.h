@@ -22,7 +22,7 @@ struct Material {
   bool absorbs_infrared = false;  ///< the depth sensor gets nothing back
   bool clean = false;             ///< no stains: really without structure if its texture is
   bool stretched = false;         ///< the texture is a picture over the whole surface, not repeated
-  /// The same light everywhere, matt: shading does not tell where on the surface the camera looks.
+  /// Even light, matte: shading does not depend on the position on the surface.
   bool evenly_lit = false;
 };
 

@@ -103,7 +103,7 @@ class LaunchFaultsTest(Case):
 
     def test_a_missing_folder_is_told(self):
         missing = self.path("missing/run.txt")
-        line = "'output' is '%s', but there is no folder '%s': make it first" % (
+        line = "'output' is '%s', but there is no folder '%s': create it first" % (
             missing, self.path("missing"))
         for launch in (("bag.launch", "bag:=" + self.bag), ("odometry.launch",), ("xtion.launch",)):
             self.expect_refusal(line, *launch, "output:=" + missing, "force:=true")
@@ -161,7 +161,7 @@ class LaunchFaultsTest(Case):
                             "bag.launch", "bag:=" + half)
 
     def test_frames_must_differ(self):
-        self.expect_refusal("'base_frame' is 'odom', the frame of 'odom_frame', too", "bag.launch",
+        self.expect_refusal("'base_frame' is 'odom', which is also the frame of 'odom_frame'", "bag.launch",
                             "bag:=" + self.bag, "base_frame:=/odom")
 
 

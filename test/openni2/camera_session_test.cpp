@@ -149,7 +149,7 @@ TEST_F(CameraSessionTest, DemandStartsAndStopsEachStreamByItself) {
   session().setDemand({false, false});
   runFor(milliseconds(100));
   EXPECT_EQ(world_.calls,
-            (std::vector<std::string>{"start colour", "start depth", "stop colour", "stop depth"}));
+            (std::vector<std::string>{"start color", "start depth", "stop color", "stop depth"}));
   EXPECT_EQ(session().status().state, CameraState::kIdle);
 }
 
@@ -273,7 +273,7 @@ TEST_F(CameraSessionTest, HalfTheRateIsReportedOnceAndSoIsItsEnd) {
   session().setDemand({true, false});
   world_.skip = 2;
   runFor(milliseconds(5000));
-  EXPECT_TRUE(heard("delivers 15.0 colour images per second instead of 30"));
+  EXPECT_TRUE(heard("delivers 15.0 color images per second instead of 30"));
   EXPECT_TRUE(session().status().slow);
   EXPECT_EQ(session().status().state, CameraState::kStreaming);
   EXPECT_NEAR(session().status().streams[0].rate, 15.0, 0.1);

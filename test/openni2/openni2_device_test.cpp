@@ -123,12 +123,12 @@ TEST_F(OpenNi2DeviceTest, NotPermitted) {
 
 TEST_F(OpenNi2DeviceTest, WithoutColour) {
   control("color", 0);
-  expectFault(request("any"), DeviceFault::kNoColor, "has no colour stream");
+  expectFault(request("any"), DeviceFault::kNoColor, "has no color stream");
 }
 
 TEST_F(OpenNi2DeviceTest, WithoutRegistration) {
   control("registration", 0);
-  expectFault(request("any"), DeviceFault::kNoRegistration, "cannot register depth to colour");
+  expectFault(request("any"), DeviceFault::kNoRegistration, "cannot register depth to color");
 }
 
 TEST_F(OpenNi2DeviceTest, ModeThatIsNotOffered) {

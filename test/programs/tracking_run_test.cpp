@@ -182,10 +182,9 @@ TEST_F(TrackingRunTest, NothingTrackedBecauseOfTheDepthUnitIsSaid) {
                       "median depth seen 0.001"),
             0U)
       << text;
-  EXPECT_NE(
-      text.find(" m, 100 % of the pixels, where 0.3 to 10 m are taken: is the depth unit wrong "
-                "(5000 per metre)?"),
-      std::string::npos)
+  EXPECT_NE(text.find(" m, 100 % of the pixels, outside of 0.3 to 10 m: is the depth unit wrong "
+                      "(5000 per metre)?"),
+            std::string::npos)
       << text;
 }
 

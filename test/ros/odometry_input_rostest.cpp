@@ -244,7 +244,7 @@ TEST_F(NodeTest, ASilentTopicIsNamed) {
   std::vector<rosgraph_msgs::Log> log;
   const ros::Subscriber subscriber = collect("/rosout", log);
   has_depth_ = false;
-  const std::string wanted = "nothing comes on: " + ns_ + "/depth/image";
+  const std::string wanted = "no messages on: " + ns_ + "/depth/image";
   const auto is_told = [&] {
     return std::any_of(log.begin(), log.end(), [&](const rosgraph_msgs::Log& entry) {
       // The colour topic is not named: its images come.

@@ -66,18 +66,18 @@ struct Camera {
   /// one, so focal lengths and principal point halve exactly, with no half pixel added.
   Camera atLevel(int level) const;
 
-  /// Up to where the lens is used: the image's corners and at least a tenth more, or where the
-  /// polynomial comes near to folding back, if that is nearer.
+  /// Radius up to which the lens is used: the corners of the image plus at least 10 %, or the
+  /// radius at which the polynomial nearly folds back, if that is smaller.
   LensRange lensRange() const;
 
   /// Whether the pixel lies within the range of this camera's lens.
   bool hasRay(const Eigen::Vector2d& pixel, const LensRange& range) const;
 
-  /// Point at depth 1 m that projects to the pixel; nothing for a pixel outside of the lens' range.
+  /// Point at depth 1 m that projects to the pixel; empty for a pixel outside of the lens' range.
   std::optional<Eigen::Vector3d> ray(const Eigen::Vector2d& pixel) const;
 
-  /// The same for many pixels: the range is found once. @param range lensRange() of this camera or
-  /// of another level of it.
+  /// The same for many pixels, with the range computed once. @param range lensRange() of this
+  /// camera or of another level of it.
   std::optional<Eigen::Vector3d> ray(const Eigen::Vector2d& pixel, const LensRange& range) const;
 
   /// Distorted from undistorted normalised coordinates, and the derivative.

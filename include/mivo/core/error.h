@@ -5,8 +5,8 @@
 
 namespace mivo {
 
-/// Thrown at start-up and by input and output: one line that says what is wrong, where, and what to
-/// do. Nothing is thrown while a frame is tracked; there TrackingResult carries the reason.
+/// Thrown at startup and by input and output: one line that says what is wrong, where, and what to
+/// do. Tracking a frame never throws; TrackingResult has the reason instead.
 class Error : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -8,14 +8,14 @@
 
 namespace mivo {
 
-/// One image with registered depth: the input of Odometry. Odometry::process copies what it needs
-/// later: after it has returned the pixels are not read again and may be overwritten, though their
-/// memory is shared until frames after this one take its place.
+/// One image with registered depth, the input of Odometry. After Odometry::process has returned,
+/// the pixels are not read again and may be overwritten. Their memory stays referenced until later
+/// frames replace it.
 struct Frame {
-  double stamp = 0.0;         ///< s, in the input's own time
-  cv::Mat image;              ///< CV_8UC1, grey
-  cv::Mat depth;              ///< same size: CV_32FC1 in metres, or CV_16UC1 in depth_unit; a value
-                              ///< that is not finite or not positive is no reading
+  double stamp = 0.0;  ///< s
+  cv::Mat image;       ///< CV_8UC1, grey
+  cv::Mat depth;  ///< same size: CV_32FC1 in metres, or CV_16UC1 in depth_unit; values that are not
+                  ///< finite or not positive mean no reading
   double depth_unit = 0.001;  ///< metres per step of a CV_16UC1 depth
 };
 
@@ -24,11 +24,11 @@ enum class ChannelOrder { kRgb, kBgr };
 
 /// Grey image of a CV_8U or CV_16U image with 1, 3 or 4 channels; of 16 bits, the 8 highest of the
 /// `bits` that are used (see GreyRange for a stream of them). A grey 8-bit image is returned
-/// without a copy. Throws Error for any other type. Every input of mivo goes through this function,
-/// so that folder, bag and camera give the same bits.
+/// without a copy. Throws Error for any other type. All inputs of mivo use this function, so that
+/// folders, bags and cameras give identical bits.
 cv::Mat toGrey(const cv::Mat& image, ChannelOrder order, int bits = 16);
 
-/// What is wrong with a frame for this camera, as one line, or an empty text when it can be used.
+/// One line that says why a frame cannot be used with this camera; empty if it can.
 std::string findFault(const Frame& frame, const Camera& camera);
 
 }  // namespace mivo

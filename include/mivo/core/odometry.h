@@ -23,7 +23,7 @@ struct CloudPoint {
 };
 
 /// Visual odometry of one camera: each frame is aligned with a keyframe by the hybrid tracker.
-/// One object, one thread; nothing is printed, and no frame makes it throw.
+/// Not thread-safe; prints nothing and does not throw while tracking.
 class Odometry {
  public:
   /// Throws Error for an invalid camera or parameter.
@@ -32,22 +32,22 @@ class Odometry {
   Odometry(const Odometry&) = delete;
   Odometry& operator=(const Odometry&) = delete;
 
-  /// Tracks one frame from the predicted pose. Stamps must grow; a frame that does not fit
-  /// (findFault) or is not newer changes nothing and is refused, see TrackingResult::isRefused().
+  /// Tracks one frame, starting at the predicted pose. Stamps must increase. A frame that does not
+  /// match the camera (findFault) or is not newer is refused and changes nothing, see
+  /// TrackingResult::isRefused().
   const TrackingResult& process(const Frame& frame);
 
-  /// The same, from the given start instead of the predicted pose.
+  /// The same, starting at the given pose instead of the predicted one.
   const TrackingResult& process(const Frame& frame, const Eigen::Isometry3d& T_odom_camera_start);
 
-  /// Where the motion model expects the camera at a time; it continues a motion for half a second
-  /// at most.
+  /// Pose predicted by the motion model, which extrapolates for at most half a second.
   Eigen::Isometry3d predictedPose(double stamp) const;
 
-  /// Forgets keyframe, motion and stamps; the next frame starts at the given pose. Throws Error
-  /// when the pose is not finite, as setPose does.
+  /// Discards keyframes, motion and stamps; the next frame gets the given pose. Throws Error when
+  /// the pose is not finite, as setPose does.
   void reset(const Eigen::Isometry3d& T_odom_camera = Eigen::Isometry3d::Identity());
 
-  /// Moves the world: the last pose becomes the given one, tracking goes on undisturbed.
+  /// Moves the world so that the last pose becomes the given one; tracking is not interrupted.
   void setPose(const Eigen::Isometry3d& T_odom_camera);
 
   /// Takes effect with the next frame. Throws Error and changes nothing when a value is invalid.
@@ -63,7 +63,7 @@ class Odometry {
   std::vector<CloudPoint> keyframeCloud() const;  ///< every second pixel with depth
 
   /// Difference live - keyframe at every second pixel with depth, at the last pose, seen in the
-  /// keyframe: CV_8UC1 of half the size, 128 where they agree, where nothing is known too.
+  /// keyframe: CV_8UC1 of half the size, 128 where they agree or where nothing is known.
   cv::Mat residualImage() const;
 
  private:

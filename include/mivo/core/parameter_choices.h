@@ -3,8 +3,7 @@
 
 namespace mivo {
 
-// What the parameters of parameters.def that are words may be; their texts stand there. The
-// enumerators are in the order of those words.
+// The enumerations of parameters.def, in the order of their words there.
 
 enum class Method { kSsd, kMi, kHybrid };
 enum class PhotometricModel { kNone, kLcn };

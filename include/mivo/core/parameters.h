@@ -8,12 +8,13 @@
 
 namespace mivo {
 
-/// When a changed parameter acts: with the next frame, or with the next keyframe (made at once).
+/// When a change takes effect: with the next frame, or with the next keyframe, which is created
+/// from the next frame.
 enum class Update { kLive, kKeyframe };
 
 // One struct for each group of parameters.def, with the defaults of its rows: AlignmentParameters,
-// DepthParameters, ... Units, ranges and texts stand there. A stage of the tracker asks for the
-// groups that it needs.
+// DepthParameters, ... Units, ranges and texts are there. Each stage of the tracker takes only the
+// groups it needs.
 #define MIVO_GROUP(Struct, member, title) struct Struct {
 #define MIVO_GROUP_END(Struct, member) \
   }                                    \
@@ -30,7 +31,7 @@ enum class Update { kLive, kKeyframe };
 #undef MIVO_BOOL
 #undef MIVO_ENUM
 
-/// The tunable constants of the method, by group.
+/// All parameters, by group.
 struct Parameters {
 #define MIVO_GROUP(Struct, member, title) Struct member;
 #define MIVO_GROUP_END(Struct, member)
@@ -50,7 +51,7 @@ struct Parameters {
   void validate() const;
 };
 
-/// One row of parameters.def, for those who read, print and document parameters.
+/// One row of parameters.def, for reading, printing and documenting parameters.
 struct ParameterInfo {
   enum class Type { kInt, kDouble, kBool, kEnum };
   std::string group;
@@ -75,10 +76,11 @@ void setParameter(Parameters& parameters, const std::string& name, const std::st
 /// The value as text that setParameter reads back exactly. Throws Error for an unknown name.
 std::string getParameter(const Parameters& parameters, const std::string& name);
 
-/// Whether a parameter differs that acts with a keyframe: one made with the other set is of no use.
+/// Whether a parameter that takes effect with a keyframe differs, so that existing keyframes are
+/// unusable.
 bool actWithKeyframe(const Parameters& before, const Parameters& after);
 
-/// `before`, but for those parameters that act live: as they are in `after`.
+/// `before` with the live parameters of `after`.
 Parameters withLiveParameters(const Parameters& before, const Parameters& after);
 
 }  // namespace mivo

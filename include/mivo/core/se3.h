@@ -31,11 +31,11 @@ Vector6 localCoordinates(const Eigen::Isometry3d& T);
 /// Exponential of the twist (v, w) in SE(3): the screw motion.
 Eigen::Isometry3d expSe3(const Vector6& twist);
 
-/// Twist of a rigid motion, the paper's Eq. 6 measures errors by it.
+/// Twist of a rigid motion; the paper's Eq. 6 measures errors by it.
 Vector6 logSe3(const Eigen::Isometry3d& T);
 
-/// The same motion with its rotation made orthonormal again. Products of many motions need it: with
-/// the transpose as the inverse, rounding errors would grow threefold with each frame.
+/// The same motion with an orthonormalised rotation. Needed for products of many motions: with the
+/// transpose as inverse, rounding errors would triple with each frame.
 Eigen::Isometry3d orthonormalised(const Eigen::Isometry3d& T);
 
 /// Adjoint in the order (translation, rotation): twist_a = adjoint(T_a_b) twist_b.

@@ -9,39 +9,39 @@
 
 namespace mivo {
 
-/// Most levels of a pyramid; the upper bound of the parameter `levels`.
+/// Maximum number of pyramid levels, the upper bound of the parameter `levels`.
 constexpr int kMaxLevels = 8;
 
 enum class TrackingState {
   kInitialising,  ///< no keyframe yet: the frame could not become one
-  kTracking,      ///< the pose is good
-  kDegraded,      ///< the pose is usable, but something is weak: see the reason
-  kLost           ///< the pose is the best guess, not a measurement
+  kTracking,      ///< the pose is measured
+  kDegraded,      ///< the pose is measured, but weak: see the reason
+  kLost           ///< the pose is a guess
 };
 
 /// Why the state is what it is.
 enum class TrackingReason {
-  kNone,               ///< tracking, nothing to say
-  kInvalidFrame,       ///< refused: size, type or stamp of the frame does not fit
+  kNone,               ///< nothing is wrong
+  kInvalidFrame,       ///< refused: size, type or stamp does not match
   kStaleStamp,         ///< refused: the stamp is not newer than that of the frame before
   kTooFewPoints,       ///< too little depth or texture for a keyframe, or to track
   kNoOverlap,          ///< too few of the keyframe's points are in view
-  kNothingInCommon,    ///< the images have nothing in common: dark, covered, or another place
-  kOpenDirections,     ///< image and depth leave directions of motion open: see open_directions
+  kNothingInCommon,    ///< image unrelated to the keyframe: dark, covered, or another place
+  kOpenDirections,     ///< image and depth do not constrain all directions: see open_directions
   kAmbiguous,          ///< another pose explains the images as well: the covariance covers both
   kImplausibleMotion,  ///< faster than the limits allow
   kNotFinite           ///< the alignment diverged
 };
 
-/// Directions of motion in the axes of the camera, in the order of Vector6: sideways (x), up and
-/// down (y), forward (z), turning about the same three axes. True: neither image nor depth fixes
-/// it.
+/// Directions of motion in the axes of the camera, in the order of Vector6: translation along x
+/// (right), y (down), z (forward), rotation about the same axes. True: not constrained by image or
+/// depth.
 using Directions = std::array<bool, 6>;
 
 const char* toString(TrackingState state);    ///< initialising, tracking, degraded, lost
-const char* toString(TrackingReason reason);  ///< a few words, e.g. "too few points"
+const char* toString(TrackingReason reason);  ///< a few words
 
-/// What happened on one pyramid level.
+/// Alignment on one pyramid level.
 struct LevelRecord {
   int level = 0;
   int points = 0;                   ///< of the keyframe on this level
@@ -49,11 +49,11 @@ struct LevelRecord {
   int iterations = 0;               ///< steps taken
   int evaluations = 0;              ///< of the cost, line search included
   bool mutual_information = false;  ///< aligned by mutual information, otherwise by SSD
-  /// At the end, nats for each point of the level: the sum of all terms that took part (negative MI
-  /// or the robust loss of the residuals, of depth, of the motion expected).
+  /// Final cost, nats per point of the level: the sum of all terms (negative MI or robust loss of
+  /// the residuals, depth, motion prior).
   double cost = 0.0;
   double milliseconds = 0.0;              ///< processor time
-  double line_search_milliseconds = 0.0;  ///< of it, in evaluations of the line search
+  double line_search_milliseconds = 0.0;  ///< part of it in the line search
 };
 
 /// Processor time of one frame by stage, milliseconds.
@@ -70,11 +70,13 @@ struct TrackingResult {
   TrackingState state = TrackingState::kInitialising;
   TrackingReason reason = TrackingReason::kNone;
 
-  /// Directions that the frame does not fix, with reason kOpenDirections: there the pose is what
-  /// the motion so far expects, and the covariance grows until something is seen again.
+  /// Directions that the frame does not constrain, with reason kOpenDirections. Along them the pose
+  /// is the prediction of the motion model, and the covariance grows until they are constrained
+  /// again.
   Directions open_directions{};
 
-  /// The frame was not looked at, see findFault(): nothing here is of it, the pose is the last one.
+  /// The frame was not tracked, see findFault(): the pose is the last one, all other values are
+  /// empty.
   bool isRefused() const {
     return reason == TrackingReason::kInvalidFrame || reason == TrackingReason::kStaleStamp;
   }
@@ -84,19 +86,19 @@ struct TrackingResult {
     return !isRefused() && (state == TrackingState::kTracking || state == TrackingState::kDegraded);
   }
 
-  /// Pose of the colour optical frame in the odometry's world (the first camera pose unless set
-  /// otherwise). When lost: the best guess.
+  /// Pose of the colour camera's optical frame in the world, which is the first camera pose unless
+  /// set otherwise. When lost: a guess.
   Eigen::Isometry3d T_odom_camera = Eigen::Isometry3d::Identity();
 
   /// Covariance of the pose's error (translation m, rotation rad) in the axes of the camera:
-  /// T_true = T_odom_camera * retract(error). Symmetric and positive definite. It grows from
-  /// keyframe to keyframe: it is that of the alignment and that of the keyframe together. Of the
-  /// first frame, true by definition, it is next to nothing; of a guess, a metre and a radian and
-  /// what the motion since the last good pose may add.
+  /// T_true = T_odom_camera * retract(error). Symmetric and positive definite. It is the sum of the
+  /// covariances of the alignment and of the keyframe's pose, and therefore grows from keyframe to
+  /// keyframe. The first pose is true by definition (10^-5 m, 10^-5 rad); a guess has 1 m, 1 rad
+  /// and the possible motion since the last measured pose.
   Matrix6 covariance = Matrix6::Identity();
 
-  /// The same of the alignment alone, with the keyframe's pose taken as true: what motion between
-  /// frames of one keyframe is to be judged by.
+  /// The same of the alignment alone, with the keyframe's pose assumed to be exact. Use it to judge
+  /// motion between frames of one keyframe.
   Matrix6 alignment_covariance = Matrix6::Identity();
 
   /// Velocity of the camera in its own axes: m/s and rad/s; zero until two poses are known.
@@ -104,9 +106,9 @@ struct TrackingResult {
 
   int keyframe = 0;  ///< number of the keyframe the frame was tracked against, from 1; 0: none
   bool new_keyframe = false;  ///< this frame became a keyframe
-  int keyframes = 0;          ///< made so far
-  /// Grows when tracking starts anew at a guessed pose; poses of one segment are connected by
-  /// measurements. A camera that is found again by an older keyframe is back in its segment.
+  int keyframes = 0;          ///< created so far
+  /// Increases when tracking restarts at a guessed pose; poses of one segment are connected by
+  /// measurements. A camera that is relocalised by an older keyframe returns to its segment.
   int segment = 0;
   int points = 0;        ///< used on the finest level
   double overlap = 0.0;  ///< fraction of the keyframe's points in view, 0..1
@@ -123,8 +125,8 @@ struct TrackingResult {
   StageTimes milliseconds;
 };
 
-/// The reason in a few words, with the directions in those of the camera, e.g. "no view of motion
-/// sideways, turning about the vertical axis".
+/// The reason in a few words, with the open directions in the axes of the camera, e.g. "motion is
+/// not observable: sideways, turning about the vertical axis".
 std::string describeReason(const TrackingResult& result);
 
 }  // namespace mivo

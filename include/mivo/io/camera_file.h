@@ -9,7 +9,7 @@
 
 namespace mivo {
 
-/// What `camera.txt` of a sequence folder says.
+/// Content of `camera.txt` of a sequence folder.
 struct SequenceCamera {
   Camera camera;
   double depth_units_per_metre = 1000.0;
@@ -23,8 +23,8 @@ SequenceCamera readCamera(const std::string& path);
 /// Throws Error when the file exists and may not be replaced, or cannot be written.
 void writeCamera(const std::string& path, const SequenceCamera& camera, Overwrite overwrite);
 
-/// The published colour camera of a TUM RGB-D sequence, when the folder's name has freiburg1,
-/// freiburg2 or freiburg3 in it.
+/// The published colour camera of a TUM RGB-D sequence if the folder's name contains freiburg1,
+/// freiburg2 or freiburg3.
 std::optional<SequenceCamera> tumCamera(const std::string& folder_name);
 
 }  // namespace mivo

@@ -7,10 +7,10 @@
 
 namespace mivo {
 
-/// Sets the parameters that a YAML file of lines `name: value` names; the others keep their values.
-/// Throws Error, naming file and line, for a file that is no flat map, an unknown name (with the
-/// nearest known one), a name given twice, or a value of the wrong type or out of range (with the
-/// range). The parameters are unchanged then.
+/// Sets the parameters in a YAML file of lines `name: value`; others keep their values. Throws
+/// Error with file and line for a file that is not a flat map, an unknown name (with the nearest
+/// known one), a repeated name, or a value of the wrong type or out of range (with the range).
+/// Parameters are unchanged then.
 void readParameters(const std::string& path, Parameters& parameters);
 
 }  // namespace mivo

@@ -13,10 +13,10 @@ namespace mivo {
 /// Why a frame was skipped.
 struct FrameFault {
   std::string text;    ///< what and where, one line
-  std::string reason;  ///< what alone, the same for all frames with this fault
+  std::string reason;  ///< the fault only, the same for all frames that have it
 };
 
-/// Where frames come from: a folder, a bag. Programs know this interface only.
+/// A source of frames: a folder or a bag.
 class FrameSource {
  public:
   virtual ~FrameSource() = default;
@@ -27,17 +27,16 @@ class FrameSource {
   /// Number of frames, skipped ones included, for progress bars.
   virtual std::size_t size() const = 0;
 
-  /// Where the unit of depth comes from, in a few words.
+  /// The origin of the depth unit, in a few words.
   virtual std::string depthUnit() const = 0;
 
-  /// One line the user should know, or an empty text: what was assumed about the input, or put
-  /// right.
+  /// One line about what was assumed or corrected in the input; empty if nothing was.
   virtual const std::string& notice() const = 0;
 
   enum class Status { kFrame, kSkipped, kEnd };
 
-  /// Reads the next frame. kSkipped: this frame is broken, `fault` says what and where; reading
-  /// goes on with the next call. Throws Error only when nothing further can be read.
+  /// Reads the next frame. kSkipped: this frame is unusable, see `fault`; the next call continues.
+  /// Throws Error only when no further frame can be read.
   virtual Status next(Frame& frame, FrameFault& fault) = 0;
 
   /// Whether time was set back before the frame that was read last: its stamp cannot be compared

@@ -13,14 +13,13 @@ enum class Overwrite { kNo, kYes };
 /// Throws Error when `path` exists and may not be replaced, or is a folder.
 void refuseExisting(const std::string& path, Overwrite overwrite);
 
-/// A file that is written piece by piece and flushed after each: what has been written is on disk
-/// whatever happens later.
+/// A file that is flushed after each write, so that written data survives a later failure.
 class OutputFile {
  public:
   /// Creates the file. Throws Error when it exists and may not be replaced, or cannot be created.
   OutputFile(const std::string& path, Overwrite overwrite);
 
-  /// Appends and flushes. Throws Error when the bytes do not reach the file, on a full disk say.
+  /// Appends and flushes. Throws Error when writing fails, for instance on a full disk.
   void write(const std::string& text);
   void write(const char* bytes, std::size_t count);
 

@@ -16,7 +16,7 @@ namespace mivo {
 std::string trajectoryLine(const StampedPose& pose);
 
 /// Poses in the order of the file, which may also be EuRoC's, KITTI's or a CSV of ROS, see
-/// doc/file_formats.md. Quaternions are normalised when they are within a tenth of unit length.
+/// doc/file_formats.md. Quaternions whose norm deviates from 1 by at most 10 % are normalised.
 /// Throws Error, naming file and line, for anything that is not 8 finite numbers or no rotation,
 /// and when there is no pose at all.
 Trajectory readTrajectory(const std::string& path);

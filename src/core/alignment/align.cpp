@@ -9,10 +9,10 @@
 namespace mivo {
 namespace {
 
-// Fewer grey levels on the coarsest level are no view, only what noise leaves there.
+// Grey levels: less contrast on the coarsest level is only noise.
 constexpr double kLeastContrast = 1.0;
 
-/// Whether the two images show enough to be compared: as much as the last view that could be.
+/// Whether both images have enough contrast, relative to the last view with enough.
 void judgeContrast(const AlignmentTask& task, const Parameters& parameters, Alignment& alignment) {
   const double of_keyframe = task.keyframe.contrastInView();
   const double least = std::max(kLeastContrast, parameters.loss.blind_contrast *

@@ -17,9 +17,9 @@
 
 namespace mivo {
 
-/// What is expected of the live camera's pose before its image is looked at.
+/// Prediction of the live camera's pose.
 struct PoseExpectation {
-  bool is_known = false;  ///< false: the camera may be anywhere, and so may the start
+  bool is_known = false;  ///< false: there is no prediction
   Eigen::Isometry3d T_live_ref = Eigen::Isometry3d::Identity();
   /// Of its error, in the axes of the expected camera, and of that of the keyframe in its own; both
   /// m and rad, in one world.
@@ -37,7 +37,7 @@ struct PoseExpectation {
 
 /// How the live camera has moved since the frame before it.
 struct LiveMotion {
-  /// Pose of the frame before the live one; where nothing leads here: that of the start.
+  /// Pose of the previous frame; where that is unknown, the start.
   Eigen::Isometry3d T_previous_ref = Eigen::Isometry3d::Identity();
   double periods = 1.0;  ///< frame periods between the two
 };
@@ -50,13 +50,13 @@ struct AlignmentTask {
   Eigen::Isometry3d T_live_ref = Eigen::Isometry3d::Identity();  ///< start
   LiveMotion motion = {};
   ShutterTimes shutter = {};
-  /// Contrast of the last view that could be compared by its image, see contrastInView(); less than
-  /// the keyframe's: that counts.
+  /// Contrast of the last view that was not dark, see contrastInView(); the keyframe's contrast is
+  /// used if it is larger.
   double last_lit_contrast = 0.0;
-  /// Holds the pose in the directions that image and depth leave open.
+  /// Holds the pose in open directions.
   PoseExpectation expected = {};
-  /// Whether it also holds it where a coarse level sees little. Not when the camera is looked for
-  /// elsewhere than expected.
+  /// Whether it is also used as a prior on coarse levels. Not when the search starts elsewhere than
+  /// at the prediction.
   bool holds_coarse_levels = false;
   int skipped_levels = 0;  ///< of the coarsest, to be left out
 };
@@ -66,33 +66,33 @@ struct Alignment {
   Eigen::Isometry3d T_live_ref = Eigen::Isometry3d::Identity();
   Matrix6 hessian = Matrix6::Identity();     ///< of the increment at T_live_ref, nats
   Matrix6 covariance = Matrix6::Identity();  ///< of the increment's error
-  bool has_open_directions = false;          ///< image and depth leave some open
-  Directions open_directions{};              ///< which, in the axes of the live camera
+  bool has_open_directions = false;          ///< some directions are open
+  Directions open_directions{};              ///< in the axes of the live camera
   Matrix6 open_projector = Matrix6::Zero();  ///< onto them, of motions in those axes
   double condition = 0.0;               ///< weakest over strongest curvature on the finest level
   int points = 0;                       ///< in view on the finest level
   double overlap = 0.0;                 ///< fraction of the finest level's points in view
-  bool sees_image = false;              ///< the images have something in common on the finest level
-  bool is_live_dark = false;            ///< the live image shows too little to be compared
-  bool is_keyframe_dark = false;        ///< that of the keyframe does
-  bool sees_depth = false;              ///< the geometric term took part there
+  bool sees_image = false;              ///< image and keyframe match on the finest level
+  bool is_live_dark = false;            ///< the live image has too little contrast
+  bool is_keyframe_dark = false;        ///< the keyframe's image has too little contrast
+  bool sees_depth = false;              ///< the depth term was used on the finest level
   double mutual_information = 0.0;      ///< nats, on the finest level that uses it
   double residual_scale = 0.0;          ///< grey levels, on the finest SSD level
   double depth_scale = 0.0;             ///< residuals of the geometric term in deviations (or 0)
   double correlation = 0.0;             ///< of the images, on the finest level
-  ReadoutMeasurement readout;           ///< what the frame says about it
+  ReadoutMeasurement readout;           ///< measured by this frame
   DepthOffsetMeasurement depth_offset;  ///< the same
   int num_levels = 0;
   std::array<LevelRecord, kMaxLevels> levels{};  ///< coarsest first
 
-  /// Depth alone may tell the pose then.
+  /// Depth alone may determine the pose then.
   bool isDepthOnly() const { return is_live_dark || is_keyframe_dark; }
 };
 
 /// Aligns a frame with a keyframe from the coarsest level to the finest: mutual information or SSD
-/// on each, as the parameters say (Algorithm 1), with the geometric term beside SSD, and alone
-/// where the image is of no use. A level with too few points in view is passed over. What neither
-/// image nor depth fixes stays where it is expected.
+/// on each, as the parameters say (Algorithm 1), with the depth term added to SSD, or alone where
+/// the image is not informative. A level with too few points in view is skipped. Open directions
+/// are held at the prediction.
 Alignment align(const AlignmentTask& task, const Parameters& parameters);
 
 }  // namespace mivo

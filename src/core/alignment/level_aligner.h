@@ -15,7 +15,7 @@
 
 namespace mivo {
 
-/// One level of the descent: its warp, its terms, and what they found.
+/// Alignment on one level: warp, terms and their result.
 class LevelAligner {
  public:
   /// Goes on from alignment.T_live_ref. Keeps references to all arguments.
@@ -24,14 +24,14 @@ class LevelAligner {
 
   void run();
 
-  /// What the image of this level knows about the pose of the alignment, see confirm().
+  /// Curvature of this level's image term at the pose of the alignment, see confirm().
   TermCurvature imageCurvature();
 
  private:
-  /// Whether a level is one descent, or two of them: some points lead, all of them come last.
+  /// A level is minimised at once, or in two stages: the leading points, then all.
   enum class Stage { kOnly, kLeading, kLast };
 
-  /// What is added up on a level; null: takes no part.
+  /// The terms of a level; null: not used.
   struct LevelTerms {
     CostTerm* image = nullptr;
     CostTerm* depth = nullptr;

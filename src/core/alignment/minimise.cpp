@@ -32,7 +32,7 @@ Eigen::Isometry3d moved(const Eigen::Isometry3d& T_live_ref, const Vector6& step
   return orthonormalised(T_live_ref * retract(step).inverse());
 }
 
-/// Leaves of a step what lies in the free directions.
+/// Projects a step onto the free directions.
 void hold(const QuadraticModel& model, const Matrix6& free, NewtonStep& newton) {
   newton.step = free * newton.step;
   const double gain = -model.gradient.dot(newton.step);
@@ -49,24 +49,25 @@ Minimum minimise(const std::vector<CostTerm*>& terms, const Eigen::Isometry3d& T
   minimum.T_live_ref = T_live_ref;
   minimum.cost = evaluate(terms, T_live_ref);
   minimum.evaluations = 1;
-  bool is_evaluated_there = true;  // the terms stand at minimum.T_live_ref
+  bool is_evaluated_there = true;  // the terms were last evaluated at minimum.T_live_ref
   while (std::isfinite(minimum.cost) && minimum.iterations < parameters.alignment.max_iterations) {
     const QuadraticModel model = linearise(terms, minimum.iterations);
     minimum.cost = model.cost;
     NewtonStep newton = newtonStep(model, length, parameters.alignment.min_curvature);
     if (free != nullptr) hold(model, *free, newton);
     minimum.hessian = model.hessian;
-    // Half the slope is what a quadratic cost would gain; without this test the last iteration
-    // would spend all its halvings on nothing.
+    // Half the slope is the gain of a quadratic cost. Without this test the last iteration would
+    // use all its halvings in vain.
     const double enough = tolerance * parameters.alignment.min_cost_change * std::abs(model.cost);
     const double squared_pixels = newton.step.dot(pixel_motion * newton.step);
-    // A number that is not finite is nothing to step by, nor may max() make a zero of it.
+    // Tested before max(), which would turn NaN into zero.
     if (!std::isfinite(squared_pixels) || !std::isfinite(newton.promised_gain)) break;
     const double pixels = std::sqrt(std::max(0.0, squared_pixels));
     if (0.5 * newton.promised_gain <= enough || !(pixels > 0.0)) break;
 
     if (newton.is_convex && pixels < trusted_step_pixels) {
-      // The model is good enough so near to the minimum: nobody asks what such a step gains.
+      // So near to the minimum the quadratic model is accurate: the step is accepted without a line
+      // search.
       minimum.T_live_ref = moved(minimum.T_live_ref, newton.step);
       minimum.cost = model.cost - 0.5 * newton.promised_gain;
       ++minimum.iterations;
@@ -90,7 +91,7 @@ Minimum minimise(const std::vector<CostTerm*>& terms, const Eigen::Isometry3d& T
         break;
       }
       length_factor *= 0.5;
-      // What is left of the step could not gain enough to go on, nor move a point visibly.
+      // The remaining step can neither gain enough to continue nor move the points noticeably.
       if (length_factor * newton.promised_gain <= enough ||
           length_factor * pixels < min_step_pixels) {
         break;

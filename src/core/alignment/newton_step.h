@@ -9,13 +9,13 @@ namespace mivo {
 struct NewtonStep {
   Vector6 step = Vector6::Zero();
   double promised_gain = 0.0;  ///< -gradient . step, positive: slope of the cost along the step
-  Matrix6 guarded_hessian = Matrix6::Identity();  ///< that the step was made with
-  bool is_convex = false;                         ///< the guard had nothing to do
+  Matrix6 guarded_hessian = Matrix6::Identity();  ///< used for the step
+  bool is_convex = false;                         ///< the guard changed nothing
 };
 
 /// Guard: with translations measured in `length` (m, the median depth), each curvature that is
 /// negative or weaker than `min_curvature` of the strongest one is replaced by its magnitude, or
-/// that bound. What the guard adds is no knowledge: a covariance is made of the raw Hessian.
+/// that bound. The guarded Hessian must not be used for a covariance.
 NewtonStep newtonStep(const QuadraticModel& model, double length, double min_curvature);
 
 }  // namespace mivo

@@ -10,17 +10,17 @@
 namespace mivo {
 namespace {
 
-// Derivatives of noise correlate by one over the square root of the number of points, and a few
-// times that where neighbours share their noise.
+// Derivatives of noise correlate by 1 / sqrt(number of points), and by a few times that where
+// neighbours share their noise.
 constexpr double kDeviationsOfChance = 6.0;
-// What is known worse than this, in median depths and rad, is five pixels wide, and known to
-// nobody.
+// A direction with a larger standard deviation (median depths, rad) is open: it corresponds to
+// about five pixels.
 constexpr double kLargestDeviation = 0.01;
 // A motion belongs to an open direction when so much of the direction is along it.
 constexpr double kPartOfDirection = 0.4;
-// Images are sampled and lenses calibrated to half a percent. A direction whose curvature is smaller
-// than that squared, of the strongest, is seen by mistake: it is 0.0002 behind faint texture, 0.0006
-// and more in ordinary views, 0.000004 at most in open ones.
+// Images are sampled and lenses calibrated to half a percent. A direction whose curvature is
+// smaller than that squared, of the strongest, is seen by mistake: it is 0.0002 behind faint
+// texture, 0.0006 and more in ordinary views, 0.000004 at most in open ones.
 constexpr double kLeastCurvature = 2.5e-5;
 // What looks as if it were seen along an open direction correlates about so much with what is seen
 // across it.
@@ -52,9 +52,8 @@ std::optional<Correlation> correlationOf(const Agreement& agreement, const Matri
   const double gain = std::sqrt(by_keyframe.trace() / by_live.trace());
   const Matrix mean = 0.5 * (by_keyframe + gain * gain * by_live);
   const Matrix both = sign * gain * within(agreement.both, axes, scale);
-  // Next to nothing in a direction is nothing; the bound keeps the factor regular.
-  const Matrix regular =
-      mean + 1e-12 * mean.trace() * Matrix::Identity(mean.rows(), mean.cols());
+  // The bound keeps the factor regular where a direction has almost no curvature.
+  const Matrix regular = mean + 1e-12 * mean.trace() * Matrix::Identity(mean.rows(), mean.cols());
   const Eigen::SelfAdjointEigenSolver<Matrix> root(regular);
   const Matrix whitening = root.operatorInverseSqrt();
   const Eigen::SelfAdjointEigenSolver<Matrix> solver(Matrix(whitening * both * whitening));
@@ -75,7 +74,9 @@ Matrix confirmed(const TermCurvature& term, const Matrix& axes, const Vector6& s
   const double of_chance =
       kDeviationsOfChance / std::sqrt(static_cast<double>(std::max(1, term.agreement.points)));
   const double least = std::max(term.least_agreement, of_chance);
-  const auto counted = [=](double rho) { return rho < least ? 0.0 : std::sqrt(std::min(1.0, rho)); };
+  const auto counted = [=](double rho) {
+    return rho < least ? 0.0 : std::sqrt(std::min(1.0, rho));
+  };
   const Matrix P = correlation->directions * correlation->rho.unaryExpr(counted).asDiagonal() *
                    correlation->inverse;
   return P.transpose() * H * P;

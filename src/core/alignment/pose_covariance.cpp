@@ -7,10 +7,10 @@
 namespace mivo {
 namespace {
 
-// m and rad: larger than what a camera does while a few frames are lost, small enough for filters.
+// m and rad: larger than the motion during a few lost frames, small enough for filters.
 constexpr double kGuessTranslation = 1.0;
 constexpr double kGuessRotation = 1.0;
-// m and rad: below what any alignment knows, far above the rounding of a 6 x 6 inverse.
+// m and rad: below the error of any alignment, far above the rounding of a 6 x 6 inverse.
 constexpr double kFloorTranslation = 1e-5;
 constexpr double kFloorRotation = 1e-5;
 

@@ -12,10 +12,10 @@ namespace mivo {
 /// The same standard deviation in every direction.
 Matrix6 diagonalCovariance(double translation, double rotation);
 
-/// Of a pose that is true by definition: the rounding of depth and of the camera's parameters.
+/// Of a pose that is true by definition: rounding of depth and calibration.
 Matrix6 floorCovariance();
 
-/// Of a pose that is only a guess: a metre and a radian.
+/// Of a guessed pose: 1 m, 1 rad.
 Matrix6 guessCovariance();
 
 /// The nearest covariance whose variances are at least those of floorCovariance().

@@ -7,7 +7,7 @@
 
 namespace mivo {
 
-/// When the rows of a camera's images are read, in frame periods.
+/// Read-out times of a camera, in frame periods.
 struct ShutterTimes {
   double readout = 0.0;       ///< from the first row to the last; 0: global shutter
   double depth_offset = 0.0;  ///< from a row of the colour image to the same row of the depth image
@@ -33,8 +33,7 @@ struct RowMotion {
   }
 };
 
-/// Scene motion per frame period as the live camera and the keyframe saw it, each when it was
-/// taken, and the pose between them.
+/// Scene motion per frame period at the live frame and at the keyframe, and the pose between them.
 struct RowVelocities {
   Vector6 live = Vector6::Zero();      ///< (v, w) in the axes of the live camera
   Vector6 keyframe = Vector6::Zero();  ///< (v, w) in the axes of the keyframe

@@ -13,7 +13,7 @@
 
 namespace mivo {
 
-/// Where the points of a level fall in the live image, and what they see there. One entry per
+/// Projections of the points of a level into the live image, and sampled values. One entry per
 /// point.
 struct LiveSamples {
   std::vector<float> u, v;     ///< pixels of the level; 0 where not visible
@@ -23,8 +23,8 @@ struct LiveSamples {
   std::size_t num_in_view = 0;  ///< in front of the camera and inside of the image
 };
 
-/// The warp of section II-B, with the time at which each row is read: samples a level of the live
-/// image at π(T X) for every point.
+/// The warp of section II-B with the read-out time of each row: samples a level of the live image
+/// at π(T X) for every point.
 class Warp {
  public:
   /// @param camera the live camera of this level. @param rows motion of the live camera while its

@@ -11,15 +11,15 @@
 namespace mivo {
 namespace {
 
-// The constant of the normalisation is the largest of three. A share of the frame's own contrast,
-// root mean square: a tenth changes what is usual by a tenth, and keeps flat places small.
+// The constant of the normalisation is the largest of three values. First, a fraction of the
+// frame's RMS contrast: it changes typical values by 10 % and suppresses flat regions.
 constexpr double kContrastShare = 0.1;
-// Grey levels: less than the rounding of 8 bits, 0.29, and no division by nothing.
+// Second, grey levels: below the rounding of 8 bits (0.29), avoids division by zero.
 constexpr double kMinConstant = 0.2;
-// And the noise. A Gaussian reduction leaves about this much of it from level to level: 70 / 256 of
-// white noise, more of what is no longer white.
+// Third, the noise. A Gaussian reduction leaves about this fraction of it from level to level: 70 /
+// 256 of white noise, more of correlated noise.
 constexpr double kNoiseReduction = 0.3;
-// What smoothing leaves of the noise on level 0, 6/16.
+// Fraction of the noise on level 0 that remains after smoothing, 6/16.
 constexpr double kNoiseSmoothed = 0.375;
 // The normalised image of a natural scene spans about +-2: 55 grey levels each.
 constexpr float kMiddle = 128.0F;
@@ -49,10 +49,10 @@ void repeatEnds(cv::Mat& pairs) {
             pairs.ptr<cv::Vec2f>(rows));
 }
 
-/// Noise of an 8-bit image from second differences along some rows: texture has few of them, noise
-/// everywhere. Interpolated between whole numbers.
+/// Noise of an 8-bit image from second differences along some rows: texture has few large ones,
+/// noise has them everywhere. The median is interpolated between integers.
 double estimateNoise(const cv::Mat& image) {
-  constexpr int kRowStep = 16;  // 30 rows of 640 pixels tell the median to a hundredth
+  constexpr int kRowStep = 16;  // 30 rows of 640 pixels determine the median to 1 %
   constexpr int kLargest = 2 * 255;
   std::array<int, kLargest + 1> counts{};
   int total = 0;
@@ -66,7 +66,7 @@ double estimateNoise(const cv::Mat& image) {
   std::size_t median = 0;
   int below = 0;
   while (median < kLargest && 2 * (below + counts[median]) < total) below += counts[median++];
-  // The values of one count are spread evenly over the unit around it; zero has half a unit.
+  // Values of one count are assumed to be uniform over the unit around it; zero has half a unit.
   const double share =
       counts[median] > 0 ? (0.5 * total - below) / static_cast<double>(counts[median]) : 0.0;
   const double exact = median == 0 ? 0.5 * share : static_cast<double>(median) - 0.5 + share;

@@ -10,14 +10,14 @@
 namespace mivo {
 
 /// Local mean and standard deviation of one level, for local contrast normalisation
-/// L = (I - mean) / (deviation + constant): what a lamp or an exposure does to a neighbourhood, a
-/// gain and an offset, drops out.
+/// L = (I - mean) / (deviation + constant): invariant to a gain and an offset of a neighbourhood,
+/// as caused by lamps and exposure.
 struct ContrastMap {
   /// CV_32FC2 (mean, deviation) over 5 x 5 pixels of the image two levels up: pixel (u, v) lies at
-  /// (u, v) / 4. The last column and the last row are there twice, so that every pixel has a
-  /// neighbour to the right and below.
+  /// (u, v) / 4. The last column and row are repeated, so that every pixel has a neighbour to the
+  /// right and below.
   cv::Mat pairs;
-  float constant = 1.0F;  ///< grey levels; keeps flat, noisy places small
+  float constant = 1.0F;  ///< grey levels; suppresses noise in flat regions
 };
 
 /// As the kernels see it.
@@ -26,7 +26,7 @@ kernels::ContrastView view(const ContrastMap& map);
 /// The contrast maps of a frame, level by level.
 class ContrastMaps {
  public:
-  /// The pyramid has two levels more than are to be normalised; buffers are reused.
+  /// The pyramid must have two additional levels; buffers are reused.
   void build(const ImagePyramid& pyramid, int num_levels);
 
   const ContrastMap& level(int level) const { return maps_[static_cast<std::size_t>(level)]; }

@@ -10,7 +10,7 @@
 namespace mivo {
 namespace {
 
-// The contrast of a level is measured on the image two levels up.
+// The contrast of a level is measured on the image two levels coarser.
 constexpr int kContrastLevels = 2;
 
 }  // namespace
@@ -21,9 +21,8 @@ bool usesMutualInformation(const Parameters& parameters, int level) {
           level >= parameters.alignment.switch_level);
 }
 
-/// The few points that are compared then tell of their neighbours, too: noise is averaged out, and
-/// interpolation between pixels errs less. Not beside clipped pixels, which would spread. Further
-/// levels are smooth by their making.
+/// Reduces noise and interpolation error at the points. Pixels next to clipped ones are not
+/// smoothed, which would spread clipping. Coarser levels are smooth already.
 void FramePyramid::smooth(double saturation) {
   const cv::Mat& image = images_.level(0);
   smoothed_.create(image.size(), CV_8UC1);

@@ -12,37 +12,36 @@
 
 namespace mivo {
 
-/// Everything the alignment needs of a frame, whether it is the live one or becomes the keyframe:
-/// grey levels, local contrast and normalised images as the photometric model asks for, and depth.
+/// All data of a frame for the alignment, both as live frame and as keyframe: grey levels, local
+/// contrast and normalised images as required by the photometric model, and depth.
 class FramePyramid {
  public:
-  /// Rebuilds from a frame that fits the camera; buffers are reused. The frame's depth is referred
-  /// to, not copied: it is read only while the frame is being processed.
+  /// Rebuilds from a frame that fits the camera; buffers are reused. The frame's depth is
+  /// referenced, not copied, and read only while the frame is processed.
   void build(const Frame& frame, const Parameters& parameters);
 
   int numLevels() const { return num_levels_; }
   bool isNormalised() const { return is_normalised_; }
 
-  /// The frame's image as it came, CV_8UC1.
+  /// The unmodified image of the frame, CV_8UC1.
   const cv::Mat& image() const { return images_.level(0); }
-  /// What is compared by SSD: CV_8UC1 on level 0, smoothed if isNormalised(), CV_32FC1 0..255
-  /// above.
+  /// Image for SSD: CV_8UC1 on level 0, smoothed if isNormalised(); CV_32FC1 0..255 on coarser
+  /// levels.
   const cv::Mat& grey(int level) const {
     return level == 0 && is_normalised_ ? smoothed_ : images_.level(level);
   }
   const ContrastMaps& contrast() const { return contrast_; }  ///< if isNormalised()
 
-  /// What mutual information compares on a level that uses it: CV_32FC1 or CV_8UC1, 0..255.
+  /// Image for mutual information on a level that uses it: CV_32FC1 or CV_8UC1, 0..255.
   const cv::Mat& miImage(int level) const;
-  /// The grey levels of it that fill the bins.
+  /// Its range of grey levels.
   const IntensityRange& miRange(int level) const {
     return ranges_[static_cast<std::size_t>(level)];
   }
 
   const Frame& frame() const { return frame_; }
 
-  /// Standard deviation of the grey levels of the coarsest level, where noise is averaged out: how
-  /// much there is to see.
+  /// Standard deviation of the grey levels of the coarsest level, where noise is averaged out.
   double contrastInView() const;
 
  private:

@@ -7,7 +7,7 @@
 namespace mivo {
 namespace {
 
-/// @param fraction of the pixels that is wanted, where it is more than point_fraction.
+/// @param fraction of the pixels to select, if larger than point_fraction.
 void selectPoints(const cv::Mat& image, const cv::Mat& depth, bool is_coarsest, double fraction,
                   const Parameters& parameters, ReferencePoints& points) {
   if (is_coarsest || parameters.points.point_fraction == 1.0) {
@@ -35,7 +35,7 @@ void keepPixels(const Condition& is_kept, ReferencePoints& points) {
   std::size_t num_leading = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Pixel pixel = points.pixels[i];
-    const std::size_t one = is_kept(pixel) ? 1U : 0U;  // no branch: nothing foresees it
+    const std::size_t one = is_kept(pixel) ? 1U : 0U;  // no branch: it would be unpredictable
     points.pixels[count] = pixel;
     count += one;
     num_leading += i < points.num_leading ? one : 0U;
@@ -58,10 +58,10 @@ void leaveOutAbove(const cv::Mat& image, Value limit, ReferencePoints& points) {
   keepPixels(isBelow, points);
 }
 
-/// Pixels with a neighbour that may be clipped: their gradient is not that of the scene.
+/// Pixels with a possibly clipped neighbour: their gradient is not that of the scene.
 void leaveOutSaturated(const cv::Mat& image, double saturation, ReferencePoints& points) {
   if (image.type() == CV_8UC1) {
-    // Whole numbers: what reaches the limit reaches the next one above it.
+    // For integers, the limit is rounded up.
     const double limit = std::ceil(saturation);
     if (limit <= 255.0) leaveOutAbove(image, static_cast<unsigned char>(limit), points);
   } else {
@@ -76,7 +76,7 @@ void leaveOutOfLens(const Camera& camera, ReferencePoints& points) {
   const double bottom = camera.height - 1.0;
   const auto hasRay = [&](double x, double y) { return camera.hasRay({x, y}, range); };
   if (hasRay(0.0, 0.0) && hasRay(right, 0.0) && hasRay(0.0, bottom) && hasRay(right, bottom)) {
-    return;  // the usual lens
+    return;  // the usual case
   }
   keepPixels([&](const Pixel& pixel) { return hasRay(pixel.x, pixel.y); }, points);
 }

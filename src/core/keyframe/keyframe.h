@@ -21,8 +21,8 @@ struct KeyframeLevel {
   MiReference mi;  ///< only on levels that use mutual information
 };
 
-/// The reference of the alignment: the points of each level, and what depends on them alone. The
-/// coarsest level uses all pixels with depth, the others the salient ones (section III-C).
+/// Reference of the alignment: the points of each level and derived data. The coarsest level uses
+/// all pixels with depth, the others salient ones (section III-C).
 class Keyframe {
  public:
   /// Fills the keyframe from a frame; buffers are reused. @param twist_per_period motion of the
@@ -30,13 +30,13 @@ class Keyframe {
   void build(const FramePyramid& frame, const Camera& camera, const Vector6& twist_per_period,
              const ShutterTimes& shutter, const Parameters& parameters);
 
-  /// The two halves of build(), so that no single frame has to wait for both: choosing the points,
-  /// and computing what depends on them. Between them there are image, depth and number of points.
+  /// The two halves of build(), to distribute its time over two frames: selection of points, and
+  /// computation of derived data. After the first half, image, depth and number of points are
+  /// available.
   void choosePoints(const FramePyramid& frame, const Vector6& twist_per_period,
                     const ShutterTimes& shutter, const Parameters& parameters);
-  /// In between: where the image gave too few points to tell what is in view, depth gives them; to
-  /// a keyframe that shows less contrast than the last one that could be compared, or next to
-  /// nothing.
+  /// Between the halves: selects points by depth alone if the image has less contrast than the last
+  /// keyframe that was not dark, or too few salient points.
   void choosePointsByDepth(double last_lit_contrast, const Parameters& parameters);
   void finish(const FramePyramid& frame, const Camera& camera, const Parameters& parameters);
 
@@ -48,7 +48,7 @@ class Keyframe {
   int numLevels() const { return static_cast<int>(levels_.size()); }
   const KeyframeLevel& level(int level) const { return levels_[static_cast<std::size_t>(level)]; }
 
-  /// Points on level 0, where they decide on the precision.
+  /// Number of points on level 0.
   std::size_t numPoints() const { return levels_.front().points.size(); }
   double medianDepth() const { return static_cast<double>(levels_.front().points.median_depth); }
 

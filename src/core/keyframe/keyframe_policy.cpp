@@ -6,16 +6,16 @@
 namespace mivo {
 namespace {
 
-// motion > patience * limit, overlap < 1 - patience * (1 - limit): so many times further away than
-// usual a keyframe is still used. Safe, for the margin below ends it before the camera is lost.
+// motion > patience * limit, overlap < 1 - patience * (1 - limit): factor by which a keyframe is
+// used longer than usual. Safe, because the margin below applies before the camera is lost.
 constexpr double kPatienceInTheDark = 4.0;
 constexpr double kPatienceWithBlur = 1.6;
-// overlap < lost_overlap + this: a keyframe is changed before its overlap is so small that frames
-// are lost.
+// overlap < lost_overlap + this: a keyframe is replaced before its overlap becomes so small that
+// frames are lost.
 constexpr double kOverlapMargin = 0.1;
 
-/// An image that shows too little, or is blurred, would be a poor reference: better one that is far
-/// away. How many times as far.
+/// A dark or blurred image is a poor reference, so that the current keyframe is used longer.
+/// Returns the factor.
 double patienceWith(const Alignment& alignment, const KeyframeQuality& first,
                     const Parameters& parameters) {
   if (alignment.isDepthOnly()) return kPatienceInTheDark;
@@ -30,7 +30,7 @@ double patienceWith(const Alignment& alignment, const KeyframeQuality& first,
 bool needsNewKeyframe(const Alignment& alignment, const Keyframe& keyframe,
                       const KeyframeQuality& first, const Parameters& parameters) {
   if (parameters.keyframes.keyframe_policy == KeyframePolicy::kFirst) return false;
-  // The light is back: from here on images can be compared again.
+  // The light has returned: images can be compared again.
   if (alignment.is_keyframe_dark && !alignment.is_live_dark) return true;
   const Vector6 motion = localCoordinates(alignment.T_live_ref.inverse());
   const double patience = patienceWith(alignment, first, parameters);
@@ -45,7 +45,7 @@ bool needsNewKeyframe(const Alignment& alignment, const Keyframe& keyframe,
   const double ratio = parameters.keyframes.keyframe_mutual_information;
   const bool less_information = first.mutual_information > 0.0 &&
                                 alignment.mutual_information < ratio * first.mutual_information;
-  // SSD alone has no mutual information; there the residuals speak.
+  // Without mutual information (method ssd) the residuals decide.
   const bool larger_residuals = first.mutual_information == 0.0 && first.residual_scale > 0.0 &&
                                 ratio * alignment.residual_scale > first.residual_scale;
   return less_information || larger_residuals;

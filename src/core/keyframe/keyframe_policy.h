@@ -7,8 +7,7 @@
 
 namespace mivo {
 
-/// How good the alignment was right after the keyframe was made: what later frames are held
-/// against.
+/// Quality of the first alignment after the keyframe was created, the reference for later frames.
 struct KeyframeQuality {
   double mutual_information = 0.0;  ///< nats; 0: not known
   double residual_scale = 0.0;      ///< grey levels; 0: not known

@@ -11,38 +11,39 @@
 
 namespace mivo {
 
-/// A keyframe and where it is.
+/// A keyframe with its pose.
 struct PosedKeyframe {
   Keyframe keyframe;
   Eigen::Isometry3d T_odom_keyframe = Eigen::Isometry3d::Identity();
   /// Of the error of T_odom_keyframe, in the keyframe's axes, see TrackingResult::covariance.
   Matrix6 covariance = Matrix6::Identity();
-  /// Contrast of the last keyframe that images could be compared with: this one's, unless it was
-  /// made in the dark. See AlignmentTask::last_lit_contrast.
+  /// Contrast of the last keyframe that was not dark: this one's, unless it was created in the
+  /// dark. See AlignmentTask::last_lit_contrast.
   double last_lit_contrast = 0.0;
   int number = 0;   ///< from 1
   int segment = 0;  ///< keyframes of one segment are connected by measurements
 };
 
-/// The keyframe in use, some before it for recovery, and one to build the next into. Their memory
-/// is used again.
+/// The current keyframe, previous ones for recovery, and a candidate for the next. Memory is
+/// reused.
 class KeyframeStore {
  public:
   bool isEmpty() const { return keyframes_.empty(); }
 
-  /// In use. Not when empty.
+  /// Precondition: not empty.
   PosedKeyframe& current() { return *keyframes_.front(); }
   const PosedKeyframe& current() const { return *keyframes_.front(); }
 
-  /// All that are kept, by when they were last in use: the current one first.
+  /// All keyframes, most recently used first.
   std::size_t size() const { return keyframes_.size(); }
   const PosedKeyframe& at(std::size_t index) const { return *keyframes_[index]; }
 
-  /// To be filled; becomes the current one by promote(), which keeps at most `num_recent` others.
+  /// Keyframe to be filled. promote() makes it the current one and keeps at most `num_recent`
+  /// others.
   PosedKeyframe& candidate();
   void promote(std::size_t num_recent);
 
-  /// Makes a kept one the current one again.
+  /// Makes a previous keyframe the current one.
   void choose(std::size_t index);
 
   void clear();

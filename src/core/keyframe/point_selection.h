@@ -13,26 +13,27 @@ struct Pixel {
 };
 
 struct SelectionLimits {
-  int num_points;          ///< to choose at most
-  int num_leading;         ///< of them those that a smaller number would have chosen come first
-  float min_gradient;      ///< grey levels per pixel
-  int cell_size;           ///< pixels; the points are spread evenly over cells of this side
+  int num_points;      ///< to choose at most
+  int num_leading;     ///< number of them that come first: those that a smaller num_points would
+                       ///< select
+  float min_gradient;  ///< grey levels per pixel
+  int cell_size;       ///< pixels; the points are spread evenly over cells of this side
   float depth_edge_ratio;  ///< a point's 3 x 3 readings span at most this share of its depth
 };
 
 /// The salient pixels of a level (section III-C): gradient above a threshold, maximal along its
-/// direction, on a smooth surface with depth, and spread over the image: each cell gives its
-/// strongest ones, as many as are needed to fill the number. First the leading ones row by row,
-/// left to right, then the others likewise. Returns how many lead.
+/// direction, on a smooth surface with depth, and distributed over the image: each cell contributes
+/// its strongest pixels. First the leading ones in row-major order, then the others. Returns the
+/// number of leading ones.
 /// @param image CV_32FC1 or CV_8UC1 grey, @param depth CV_32FC1 metres (0: none), same size
 std::size_t selectSalient(const cv::Mat& image, const cv::Mat& depth, const SelectionLimits& limits,
                           std::vector<Pixel>& pixels);
 
-/// Every pixel with depth that has eight neighbours: for the coarsest level, where a smooth surface
-/// around each would leave too few.
+/// All pixels with depth except at the border: for the coarsest level, where the test for smooth
+/// depth would leave too few.
 void selectAll(const cv::Mat& depth, std::vector<Pixel>& pixels);
 
-/// About so many of those, spread evenly: for an image that shows nothing.
+/// About num_points of those, evenly distributed: for an image without texture.
 void selectEvenly(const cv::Mat& depth, int num_points, std::vector<Pixel>& pixels);
 
 }  // namespace mivo

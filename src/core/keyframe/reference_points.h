@@ -22,7 +22,8 @@ constexpr int kSymmetric6 = 21;
 struct ReferencePoints {
   int level = 0;
   std::vector<Pixel> pixels;
-  /// So many of them come first and find the way for all: the strongest of every part of the image.
+  /// Number of leading points, which come first: the strongest of each cell. They perform the
+  /// iterations.
   std::size_t num_leading = 0;
   /// Metres, optical frame of the keyframe at the time of its middle row.
   std::vector<float> x, y, z;
@@ -30,7 +31,7 @@ struct ReferencePoints {
   /// normalisation the intensity minus its local mean.
   std::vector<float> intensity;
   /// Grey levels per unit of the live sample: 1; with local contrast normalisation the local
-  /// deviation, which gives each point the weight that its noise deserves.
+  /// deviation, so that each point has the weight that its noise justifies.
   std::vector<float> contrast;
   std::array<std::vector<float>, 6> jacobian;  ///< d intensity / d d, grey levels per m and per rad
   /// Second derivative of the intensity, upper triangle row by row; empty unless asked for.
@@ -46,13 +47,13 @@ struct ReferencePoints {
   }
 };
 
-/// The image that points are made from.
+/// The image that points are created from.
 struct ReferenceImage {
   const cv::Mat& grey;                    ///< CV_32FC1, of the level
   const ContrastMap* contrast = nullptr;  ///< to normalise it by; null: taken as it is
 };
 
-/// The depth that they get.
+/// The depth of the points.
 struct ReferenceDepth {
   const cv::Mat& metres;  ///< CV_32FC1, of the level; 0 for none
   double offset = 0.0;    ///< frame periods by which a row of it is read later than of the image

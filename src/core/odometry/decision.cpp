@@ -10,9 +10,9 @@
 namespace mivo {
 namespace {
 
-// Fewer grey levels of contrast are no view that a lost camera could start anew from.
+// Grey levels: with less contrast no new segment is started.
 constexpr double kMinContrast = 1.0;
-// A dark image is waited for so many times longer than another one: the light may come back.
+// Factor on lost_frames for dark images: the light may return.
 constexpr int kLostPatienceInTheDark = 4;
 
 void record(const Alignment& alignment, TrackingResult& result) {
@@ -34,7 +34,7 @@ MeasuredPose measuredPose(const Prediction& prediction, const TrackingResult& re
   return pose;
 }
 
-/// The state with a keyframe more.
+/// The outcome with one more keyframe.
 Outcome withKeyframe(const Outcome& outcome) {
   Outcome with = outcome;
   with.state.first_quality = {};
@@ -43,7 +43,7 @@ Outcome withKeyframe(const Outcome& outcome) {
   return with;
 }
 
-/// Pose, velocity and shutter as the sight tells them.
+/// Updates pose, velocity and shutter from the alignment.
 void follow(const SearchInput& input, const Prediction& prediction, const Sight& sight,
             OdometryState& state, TrackingResult& result) {
   const PosedKeyframe& keyframe = input.keyframes.at(sight.keyframe);
@@ -63,7 +63,7 @@ void follow(const SearchInput& input, const Prediction& prediction, const Sight&
   // What may be wrong does not lead the next frame.
   if (!sight.is_ambiguous) state.motion.add(pose, state.clock, input.parameters.motion);
   result.velocity = state.motion.velocity(state.clock, input.parameters.motion);
-  // Held against a keyframe whose own velocity is not known, a frame says nothing about the rows.
+  // Without the keyframe's own velocity, a frame contains no information about the rows.
   if (!keyframe.keyframe.twistPerPeriod().isZero(0.0)) state.shutter.add(alignment);
 }
 
@@ -79,7 +79,7 @@ Decision decideFirst(const OdometryState& state, const Prediction& prediction,
   without.reason = TrackingReason::kTooFewPoints;
   without.covariance = without.alignment_covariance = guessCovariance();
 
-  // A pose that was given is true by definition; later ones without a keyframe are guessed.
+  // A given pose is true by definition; later ones without a keyframe are guesses.
   KeyframePlan plan;
   plan.T_odom_camera = prediction.T_odom_camera;
   plan.covariance = state.is_pose_given ? floorCovariance() : guessCovariance();
@@ -111,7 +111,7 @@ Decision decideTracked(const SearchInput& input, const Prediction& prediction, c
   TrackingResult& said = decision.outcome.result;
   record(alignment, said);
   said.keyframe = keyframe.number;
-  // Over a long loss, or from another segment, the mean velocity is not the present one.
+  // After a long loss, or from another segment, the mean velocity is not the current one.
   const bool is_continued =
       state.lost_in_a_row < input.parameters.loss.lost_frames && keyframe.segment == state.segment;
   const Eigen::Isometry3d T_odom_previous = state.T_odom_camera;
@@ -138,7 +138,7 @@ Decision decideTracked(const SearchInput& input, const Prediction& prediction, c
         localCoordinates(state.T_odom_camera.inverse() * T_odom_previous) / prediction.periods;
   }
   plan.covariance = said.covariance;
-  // In the dark the next keyframe shows less than what there is to see.
+  // The contrast of a keyframe created in the dark is not the scene's.
   const bool is_lit = alignment.sees_image && !alignment.is_live_dark;
   plan.last_lit_contrast = is_lit ? 0.0 : keyframe.last_lit_contrast;
   plan.segment = state.segment;

@@ -12,13 +12,13 @@
 
 namespace mivo {
 
-/// What is known after a frame, and what is said of it.
+/// State and result after a frame.
 struct Outcome {
   OdometryState state;
   TrackingResult result;
 };
 
-/// The keyframe that a frame is to become.
+/// Plan for a keyframe created from the frame.
 struct KeyframePlan {
   Eigen::Isometry3d T_odom_camera = Eigen::Isometry3d::Identity();
   Vector6 twist_per_period = Vector6::Zero();  ///< of the scene in the camera's axes
@@ -27,24 +27,24 @@ struct KeyframePlan {
   int segment = 0;
 };
 
-/// What is to be made of a frame.
+/// Decision about a frame.
 struct Decision {
-  Outcome outcome;                   ///< if it becomes no keyframe
-  std::size_t keyframe = 0;          ///< of the store, to be the current one from now on
-  std::optional<KeyframePlan> plan;  ///< the keyframe that it is to become
+  Outcome outcome;                   ///< if it does not become a keyframe
+  std::size_t keyframe = 0;          ///< index of the keyframe that becomes the current one
+  std::optional<KeyframePlan> plan;  ///< keyframe to create
   Outcome with_keyframe;             ///< if it does
 };
 
-/// The first frame, or the first since all keyframes are gone.
+/// The first frame, or the first after all keyframes were discarded.
 Decision decideFirst(const OdometryState& state, const Prediction& prediction,
                      const TrackingResult& result, const MotionParameters& parameters);
 
-/// A frame whose sight is believed: it is tracked, and may become the next keyframe.
-/// @param must_become_keyframe also where it would not have to
+/// A frame whose alignment is accepted: it is tracked, and may become the next keyframe.
+/// @param must_become_keyframe regardless of the policy
 Decision decideTracked(const SearchInput& input, const Prediction& prediction, const Sight& sight,
                        bool must_become_keyframe, const TrackingResult& result);
 
-/// A frame that is lost. After some of them a new segment begins, where there is a view.
+/// A lost frame. After lost_frames of them a new segment starts, unless the image is blank.
 Decision decideLost(const SearchInput& input, const Prediction& prediction, const Sight& sight,
                     const TrackingResult& result);
 

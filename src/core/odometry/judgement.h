@@ -7,19 +7,19 @@
 
 namespace mivo {
 
-/// Why an alignment cannot be believed, by what it measured itself: not finite, nothing in common
-/// (depth alone counts only in the dark: an image that shows something else is of another place,
-/// however well some of its planes fit), too little overlap, too few points. kNone: it can.
+/// Reason to reject an alignment by its own measurements: not finite, image unrelated to the
+/// keyframe, too little overlap, too few points. kNone: accepted. Depth alone is accepted only in
+/// the dark: some planes of an unrelated place may fit as well.
 TrackingReason judge(const Alignment& alignment, const LossParameters& parameters);
 
-/// kImplausibleMotion if a camera that moved like this within so many seconds was faster than the
-/// limits; kNone if not. @param motion translation m, rotation vector rad
+/// kImplausibleMotion if the motion within `seconds` exceeds the limits, otherwise kNone. @param
+/// motion translation m, rotation vector rad
 TrackingReason judgeMotion(const Vector6& motion, double seconds, const LossParameters& parameters);
 
-/// Whether an alignment is good enough to be believed without its history.
+/// Whether an alignment is acceptable without a predicted pose.
 bool isConvincing(const Alignment& alignment, const LossParameters& parameters);
 
-/// How good a believed alignment is: tracking, or degraded and why.
+/// State of an accepted alignment: tracking, or degraded with the reason.
 struct Quality {
   TrackingState state = TrackingState::kTracking;
   TrackingReason reason = TrackingReason::kNone;

@@ -14,8 +14,8 @@ Matrix6 squares(double speed, double turn_rate) {
   return diagonalCovariance(speed, turn_rate);
 }
 
-/// Integral over the time of the deviation of a velocity of which nothing was known at first, in
-/// units of kMotionHorizon: of sqrt(1 - exp(-2 u)).
+/// Integral over time of the deviation of the unknown part of the velocity, sqrt(1 - exp(-2 u)), in
+/// units of kMotionHorizon.
 double integralOfGrowth(double u) {
   constexpr double kLong = 20.0;  // exp(-2 u) is nothing any more
   if (u > kLong) return u + std::log(2.0) - 1.0;
@@ -69,7 +69,7 @@ double MotionModel::periods(const FrameClock& clock, const MotionParameters& par
   return has_velocity_ ? clock.periodsBetween(previous_stamp_, last_.stamp, parameters) : 1.0;
 }
 
-/// How long before the last pose its open directions were seen.
+/// Time since the open directions of the last pose were observed.
 double MotionModel::secondsUnseen(double stamp) const {
   return std::max(0.0, stamp - seen_.stamp);
 }
@@ -95,8 +95,8 @@ Eigen::Isometry3d MotionModel::predict(double stamp, const Eigen::Isometry3d& la
   return orthonormalised(last_.T_odom_camera * expSe3(motionUntil(stamp, clock, parameters)));
 }
 
-/// What the camera may have gone astray within so many seconds of not being seen: its velocity
-/// keeps what it was for half a second, and may be as large as ever after that.
+/// Covariance of the drift during so many seconds without observation: the velocity remains known
+/// for about half a second and is arbitrary after that.
 Matrix6 MotionModel::driftWithin(double seconds, const MotionParameters& parameters) const {
   const double u = seconds / kMotionHorizon;
   const double of_known = kMotionHorizon * (1.0 - std::exp(-u));

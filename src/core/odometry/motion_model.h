@@ -9,10 +9,10 @@
 
 namespace mivo {
 
-/// Motion is not continued for longer than this, s: a hand or a robot may have stopped by then.
+/// s; motion is not extrapolated for longer, because the camera may have stopped.
 constexpr double kMotionHorizon = 0.5;
 
-/// A pose that an image or depth has told, entirely or but for some directions.
+/// A measured pose, possibly with open directions.
 struct MeasuredPose {
   double stamp = 0.0;  ///< s
   Eigen::Isometry3d T_odom_camera = Eigen::Isometry3d::Identity();
@@ -20,20 +20,20 @@ struct MeasuredPose {
   Matrix6 covariance = Matrix6::Zero();
   /// The part of it that the alignment alone has.
   Matrix6 alignment_covariance = Matrix6::Zero();
-  /// Projects motions in the axes of the camera onto those that were not seen; zero: all were.
+  /// Projects motions in the axes of the camera onto the open directions; zero: none is open.
   Matrix6 open_projector = Matrix6::Zero();
   bool has_open_directions = false;
 };
 
-/// How the camera moves: at constant velocity in whole frame periods, for half a second at most.
-/// In directions that are not seen the velocity is held so long, and what it may have become
-/// meanwhile is counted.
+/// Constant-velocity motion model in whole frame periods, extrapolating for at most half a second.
+/// In open directions the last observed velocity is used for that long, and its growing uncertainty
+/// is part of the covariance.
 class MotionModel {
  public:
   /// Adds a pose; stamps grow.
   void add(const MeasuredPose& pose, const FrameClock& clock, const MotionParameters& parameters);
 
-  /// Forgets the poses: the next one is not a continuation.
+  /// Discards the poses: the next one is not a continuation.
   void stop();
 
   /// Expresses the poses in another world: T_new_old.
@@ -42,12 +42,12 @@ class MotionModel {
   /// Whether two poses have been added since the start, or since stop().
   bool hasVelocity() const { return has_velocity_; }
 
-  /// Expected pose at a stamp. The given pose before two have been added.
+  /// Predicted pose at a stamp; the given pose before two poses have been added.
   Eigen::Isometry3d predict(double stamp, const Eigen::Isometry3d& last, const FrameClock& clock,
                             const MotionParameters& parameters) const;
 
-  /// Covariance of the error of that pose in the axes of the camera. Of a camera whose velocity is
-  /// not known it grows as the parameters expect it to move.
+  /// Covariance of the error of that pose in the axes of the camera. If the velocity is unknown, it
+  /// grows according to expected_speed and expected_turn_rate.
   Matrix6 covariance(double stamp, const FrameClock& clock,
                      const MotionParameters& parameters) const;
 
@@ -75,7 +75,7 @@ class MotionModel {
   MeasuredPose last_;
   Vector6 motion_ = Vector6::Zero();  // from the pose before the last to it, in the camera's axes
   double previous_stamp_ = 0.0;       // of the pose before the last
-  // The last pose of which all directions were seen, and how fast the camera was then.
+  // The last pose without open directions, and the speed of the camera at that time.
   MeasuredPose seen_;
   double seen_speed_ = 0.0;                        // m/s
   double seen_turn_rate_ = 0.0;                    // rad/s

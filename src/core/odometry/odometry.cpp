@@ -35,8 +35,8 @@ class Odometry::Implementation {
 
   Camera camera_;
   Parameters parameters_;        // in use
-  Parameters wanted_;            // from the next keyframe on
-  bool wants_keyframe_ = false;  // for they differ in what acts with one
+  Parameters wanted_;            // in use in use from the next keyframe on
+  bool wants_keyframe_ = false;  // wanted_ differs in parameters that act with a keyframe
   OdometryState state_;
   KeyframeStore keyframes_;
   TrackingResult result_;  // of the last frame
@@ -56,7 +56,7 @@ class Odometry::Implementation {
   bool keyframe_is_unfinished_ = false;  // its points are chosen, see finishKeyframe()
 };
 
-/// The story of a frame.
+/// Processes one frame.
 void Odometry::Implementation::process(const Frame& frame, const Eigen::Isometry3d* start) {
   const double begin = threadMilliseconds();
   milliseconds_ = {};
@@ -84,7 +84,7 @@ TrackingReason Odometry::Implementation::refusal(const Frame& frame) const {
   return is_newer ? TrackingReason::kNone : TrackingReason::kStaleStamp;
 }
 
-/// What holds before a frame has been looked at: the last pose.
+/// Result before the frame is tracked: the last pose.
 TrackingResult Odometry::Implementation::emptyResult(double stamp) const {
   TrackingResult result;
   result.stamp = stamp;
@@ -97,7 +97,7 @@ TrackingResult Odometry::Implementation::emptyResult(double stamp) const {
   return result;
 }
 
-/// Notes the stamp, makes the last keyframe ready, and the frame ready to be compared with it.
+/// Records the stamp, completes the last keyframe, and builds the pyramid of the frame.
 void Odometry::Implementation::prepare(const Frame& frame) {
   state_.last_stamp = frame.stamp;
   state_.has_stamp = true;
@@ -112,7 +112,7 @@ void Odometry::Implementation::prepare(const Frame& frame) {
   milliseconds_.pyramid = threadMilliseconds() - begin;
 }
 
-/// The second half of making a keyframe is left to the frame after it.
+/// The second half of creating a keyframe is done with the next frame.
 void Odometry::Implementation::finishKeyframe() {
   if (!keyframe_is_unfinished_) return;
   const double begin = threadMilliseconds();
@@ -132,7 +132,7 @@ Decision Odometry::Implementation::trackOrLose(const Prediction& prediction) {
   return decideTracked(input, prediction, sight, wants_keyframe_, result);
 }
 
-/// The only place where what is known of the past changes.
+/// The only place where the state changes.
 void Odometry::Implementation::commit(const Decision& decision, const Frame& frame) {
   if (decision.keyframe > 0) keyframes_.choose(decision.keyframe);
   Outcome with = decision.with_keyframe;
@@ -145,8 +145,8 @@ void Odometry::Implementation::commit(const Decision& decision, const Frame& fra
   result_.depth_time_offset = state_.shutter_times.depth_offset * period;
 }
 
-/// Makes the frame the current keyframe, if it has enough points; with the parameters that are
-/// wanted, and the shutter's times as they are known by now. Changes nothing otherwise.
+/// Makes the frame the current keyframe if it has enough points, with the requested parameters and
+/// the current shutter times. Otherwise changes nothing.
 bool Odometry::Implementation::makeKeyframe(const KeyframePlan& plan, const Frame& frame,
                                             OdometryState& state) {
   const double begin = threadMilliseconds();
@@ -170,7 +170,7 @@ bool Odometry::Implementation::makeKeyframe(const KeyframePlan& plan, const Fram
       std::max(plan.last_lit_contrast, candidate.keyframe.contrastInView());
   candidate.number = state.num_keyframes;
   candidate.segment = plan.segment;
-  // Those that were made with other parameters are of no use any more.
+  // Keyframes created with other parameters are unusable.
   keyframes_.promote(is_change ? 0 : static_cast<std::size_t>(wanted_.loss.recovery_keyframes));
   parameters_ = wanted_;
   wants_keyframe_ = false;

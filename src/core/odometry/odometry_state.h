@@ -10,9 +10,9 @@
 
 namespace mivo {
 
-/// What the odometry knows of the past, keyframes aside. A value: each frame makes a new one of it.
+/// State of the odometry except keyframes. A value: each frame creates a new one.
 struct OdometryState {
-  Eigen::Isometry3d T_odom_camera = Eigen::Isometry3d::Identity();  ///< last pose to be trusted
+  Eigen::Isometry3d T_odom_camera = Eigen::Isometry3d::Identity();  ///< last measured pose
   double pose_stamp = 0.0;                                          ///< s, of it
   double last_stamp = 0.0;                                          ///< s, of the last frame
   bool has_stamp = false;

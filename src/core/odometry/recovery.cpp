@@ -8,9 +8,9 @@
 namespace mivo {
 namespace {
 
-// A lost frame takes at most six alignments; four kept keyframes have had their turn in two frames.
+// Limits a lost frame to six alignments; four older keyframes take two frames.
 constexpr std::size_t kOlderPerFrame = 2;
-// Shorter motion leads nowhere else: m and rad.
+// m and rad; a shorter motion gives no other start.
 constexpr double kStandingStill = 1e-6;
 
 }  // namespace

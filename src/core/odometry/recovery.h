@@ -9,15 +9,16 @@
 
 namespace mivo {
 
-/// One way to find a lost camera again: a keyframe of the store, and where to start.
+/// One attempt to relocalise a lost camera: a keyframe of the store and a start.
 struct RecoveryAttempt {
   std::size_t keyframe = 0;
   Eigen::Isometry3d T_odom_camera = Eigen::Isometry3d::Identity();
-  bool is_expected = false;  ///< it is where the motion so far leads
-  int skipped_levels = 0;    ///< coarsest levels to leave out: they may have led astray
+  bool is_expected = false;  ///< it is the prediction
+  int skipped_levels =
+      0;  ///< number of coarsest levels to skip: they may converge to a wrong minimum
 };
 
-/// The attempts in their order; a frame allocates nothing.
+/// The attempts in order, without allocation.
 class RecoveryAttempts {
  public:
   void add(const RecoveryAttempt& attempt) { attempts_[size_++] = attempt; }
@@ -31,10 +32,9 @@ class RecoveryAttempts {
   std::size_t size_ = 0;
 };
 
-/// What to try with a frame that the usual start does not align: from the last good pose, from the
-/// motion before the loss continued, from half of it, and from the last good pose without the
-/// coarsest level, against the current keyframe; and from their own poses against two of the older
-/// keyframes, others with every lost frame.
+/// Attempts for a frame that is not aligned from the predicted pose. Against the current keyframe:
+/// the last measured pose, the continued motion, half of it, and the last pose without the coarsest
+/// level. Against two of the older keyframes, alternating from frame to frame: their own poses.
 /// @param T_odom_last last good pose. @param T_odom_predicted where its motion would have led.
 /// @param lost_in_a_row frames lost before this one.
 RecoveryAttempts recoveryAttempts(const KeyframeStore& keyframes,

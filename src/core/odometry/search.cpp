@@ -10,8 +10,7 @@
 namespace mivo {
 namespace {
 
-/// From another segment nothing leads here: the camera counts as standing still, and may be
-/// anywhere.
+/// For a keyframe of another segment there is no prediction: zero velocity, unknown pose.
 AlignmentTask taskFor(const SearchInput& input, const Prediction& prediction,
                       const PosedKeyframe& keyframe, const RecoveryAttempt& attempt) {
   const bool is_connected = keyframe.segment == input.state.segment;
@@ -35,7 +34,7 @@ AlignmentTask taskFor(const SearchInput& input, const Prediction& prediction,
   return task;
 }
 
-/// Within one segment the motion since the last frame counts, too.
+/// Within one segment the motion since the last frame is checked as well.
 TrackingReason judgeSight(const SearchInput& input, const Prediction& prediction,
                           const PosedKeyframe& keyframe, const Alignment& alignment) {
   const TrackingReason reason = judge(alignment, input.parameters.loss);
@@ -59,7 +58,7 @@ bool isBelievable(const Sight& sight) {
   return sight.reason == TrackingReason::kNone;
 }
 
-/// The first of the other ways that leads to a result that needs no history to be believed.
+/// The first recovery attempt with a result that is acceptable without a prediction.
 std::optional<Sight> recover(const SearchInput& input, const Prediction& prediction) {
   const OdometryState& state = input.state;
   for (const RecoveryAttempt& attempt : recoveryAttempts(
@@ -77,8 +76,7 @@ std::optional<Sight> recover(const SearchInput& input, const Prediction& predict
 bool isDoubtful(const SearchInput& input, const Prediction& prediction, const Sight& sight) {
   if (!isConvincing(sight.alignment, input.parameters.loss)) return true;
   const double bound = input.parameters.loss.surprise_deviations;
-  return input.state.motion.hasVelocity() &&
-         innovation(input, prediction, sight) > bound * bound;
+  return input.state.motion.hasVelocity() && innovation(input, prediction, sight) > bound * bound;
 }
 
 /// How many of the coarsest levels are aligned by mutual information.
@@ -99,8 +97,7 @@ Sight compete(const SearchInput& input, const Prediction& prediction, const Sigh
         RecoveryAttempt{0, prediction.T_odom_camera, true, numMiLevels(input)}}) {
     const Sight sight = look(input, prediction, attempt);
     if (!isBelievable(sight)) continue;
-    const bool is_better =
-        evidence(input, prediction, sight) > evidence(input, prediction, best);
+    const bool is_better = evidence(input, prediction, sight) > evidence(input, prediction, best);
     const Sight& other = is_better ? best : sight;
     if (isAmbiguous(input, prediction, is_better ? sight : best, other)) second_best = other;
     if (is_better) best = sight;

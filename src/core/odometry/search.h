@@ -13,7 +13,7 @@
 
 namespace mivo {
 
-/// A frame, and what there is to compare it with.
+/// A frame and the data to align it with.
 struct SearchInput {
   const OdometryState& state;
   const KeyframeStore& keyframes;
@@ -22,7 +22,7 @@ struct SearchInput {
   const Parameters& parameters;
 };
 
-/// A frame aligned with one of the keyframes, and why that cannot be believed; kNone: it can.
+/// Alignment of a frame with a keyframe, and the reason to reject it; kNone: accepted.
 struct Sight {
   Alignment alignment;
   std::size_t keyframe = 0;  ///< index in the store
@@ -31,8 +31,8 @@ struct Sight {
 };
 
 /// Aligns the frame with the current keyframe from the prediction, and judges the result. When
-/// its image hardly agrees, or the motion surprises, other starts compete with it; when it cannot be
-/// believed other keyframes are tried, too.
+/// its image hardly agrees, or the motion surprises, other starts compete with it; when it cannot
+/// be believed other keyframes are tried, too.
 Sight findCamera(const SearchInput& input, const Prediction& prediction);
 
 }  // namespace mivo

@@ -6,8 +6,8 @@
 
 namespace mivo {
 
-/// What one frame says about the time from colour to depth, in frame periods: by how much to change
-/// it, and how sure that is (inverse variance).
+/// Measurement of the time from colour to depth by one frame, in frame periods: correction and
+/// inverse variance.
 struct DepthOffsetMeasurement {
   double correction = 0.0;
   double information = 0.0;
@@ -23,18 +23,18 @@ struct TermModel {
 /// fixed pose.
 double depthOffsetGradient(const QuadraticModel& depth, const RowVelocities& velocities);
 
-/// Measures how far the pose that depth asks for is from the one that the image asks for, along the
-/// way that depth goes in a frame period: the offset is a seventh unknown beside the pose, which is
-/// eliminated. Where the camera moves as it did when the keyframe was taken, nothing can be told.
+/// Measures the difference between the poses preferred by depth and by the image along the motion
+/// of depth per frame period: the offset is a seventh unknown; the pose is eliminated. Not
+/// observable while the camera moves as it did at the keyframe.
 /// @param image, @param depth the two terms at one pose. @param median_depth of the points, m.
 DepthOffsetMeasurement measureDepthOffset(const TermModel& image, const TermModel& depth,
                                           const RowVelocities& velocities, double median_depth);
 
-/// Estimates while tracking what is to be added to the offset that was given. It stays zero until
-/// several keyframes agree on more than a tenth of a frame period, and then follows their mean.
+/// Estimates the correction of the given offset while tracking. It stays zero until several
+/// keyframes agree on more than a tenth of a frame period, and then follows their mean.
 class DepthOffsetEstimator {
  public:
-  /// Adds what a frame says, held against a keyframe whose velocity was known.
+  /// Adds the measurement of a frame tracked against a keyframe of known velocity.
   void add(const DepthOffsetMeasurement& measurement);
 
   /// Ends the interval of a keyframe: the only time at which the estimate changes.

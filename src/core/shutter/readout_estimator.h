@@ -9,25 +9,25 @@
 
 namespace mivo {
 
-/// What one frame says about the read-out time, as a share of the frame period: by how much to
-/// change it, and how sure that is (inverse variance, as far as the residuals know).
+/// Measurement of the read-out time by one frame, as a fraction of the frame period: correction and
+/// inverse variance (as far as the residuals show).
 struct ReadoutMeasurement {
   double correction = 0.0;
   double information = 0.0;
 };
 
-/// Measures from the residuals at the end of a level: the read-out is a seventh unknown beside the
-/// pose, which is eliminated. @param live_rows row of each point in the live image, pixels;
+/// Measures from the residuals at the end of a level: the read-out time is a seventh unknown; the
+/// pose is eliminated. @param live_rows row of each point in the live image, pixels;
 /// @param height of the level, @param scale of the residuals.
 ReadoutMeasurement measureReadout(const ReferencePoints& points, const Residuals& residuals,
                                   const std::vector<float>& live_rows, double height, double scale,
                                   const RowVelocities& velocities);
 
-/// Estimates the read-out time while tracking. It stays zero until two keyframes in a row ask for a
-/// rolling shutter by more than chance does on a global one, and then follows what they say.
+/// Estimates the read-out time while tracking. It stays zero until two successive keyframes
+/// indicate a rolling shutter significantly, and then follows their measurements.
 class ReadoutEstimator {
  public:
-  /// Adds what a frame says, held against a keyframe whose velocity was known.
+  /// Adds the measurement of a frame tracked against a keyframe of known velocity.
   void add(const ReadoutMeasurement& measurement);
 
   /// Ends the interval of a keyframe: the only time at which the estimate changes, for the points

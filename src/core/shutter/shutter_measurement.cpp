@@ -25,7 +25,8 @@ ShutterMeasurement measureShutter(const ReferencePoints& points, SsdTerm& image,
                                          image.scale(), velocities);
   }
   if (shutter.depth_time_offset_estimation && geometry != nullptr) {
-    // The two stand at one pose, be it a step before the last: the measurement allows for that.
+    // Both terms are evaluated at the same pose, possibly one step before the last; the measurement
+    // accounts for it.
     measurement.depth_offset = measureDepthOffset(modelOf(image), modelOf(*geometry), velocities,
                                                   static_cast<double>(points.median_depth));
   }

@@ -10,13 +10,13 @@
 
 namespace mivo {
 
-/// What a frame says about when its rows were read.
+/// Measurement of the shutter by one frame.
 struct ShutterMeasurement {
   ReadoutMeasurement readout;
   DepthOffsetMeasurement depth_offset;
 };
 
-/// Measures what the parameters want estimated, from the terms at the end of a level.
+/// Measures the quantities to be estimated, from the terms at the end of a level.
 /// @param geometry none where depth took no part
 ShutterMeasurement measureShutter(const ReferencePoints& points, SsdTerm& image,
                                   GeometricTerm* geometry, double height,

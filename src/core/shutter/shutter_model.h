@@ -9,11 +9,11 @@
 
 namespace mivo {
 
-/// When the camera reads its rows: as the parameters say, or as the frames so far have shown. The
-/// estimates only change when a keyframe is made, for its points are corrected for them then.
+/// Read-out times of the camera: given by parameters or estimated. Estimates change only when a
+/// keyframe is created, because its points are corrected with them.
 class ShutterModel {
  public:
-  /// Adds what a frame says, held against a keyframe whose velocity was known.
+  /// Adds the measurements of a frame tracked against a keyframe of known velocity.
   void add(const Alignment& alignment);
 
   /// When a keyframe is made. @param period s between two frames; 0: not known yet.

@@ -5,14 +5,14 @@
 
 namespace mivo {
 
-/// How the derivatives of keyframe and live frame agree. Noise gives the keyframe's derivatives a
-/// curvature in directions in which there is nothing to see; but the noise of the live frame is
-/// another one, so that sums of products of the two tell what both see.
+/// Agreement of the derivatives of keyframe and live frame. Noise gives the keyframe's derivatives
+/// a curvature even in directions without structure. The noise of the live frame is independent of
+/// it, so that sums of products of both retain the common structure only.
 struct Agreement {
   Matrix6 keyframe = Matrix6::Zero();  ///< sum of J Jᵀ, J by the keyframe
   Matrix6 live = Matrix6::Zero();      ///< sum of L Lᵀ, L by the live frame
   Matrix6 both = Matrix6::Zero();      ///< sum of J Lᵀ, symmetric part
-  int points = 0;                      ///< that were compared
+  int points = 0;                      ///< number of compared points
 
   void add(const Vector6& by_keyframe, const Vector6& by_live) {
     keyframe += by_keyframe * by_keyframe.transpose();

@@ -17,34 +17,34 @@ struct QuadraticModel {
   Matrix6 hessian = Matrix6::Zero();
 };
 
-/// Fewer blocks of the image say nothing about how much they err together.
+/// Minimum number of image blocks for an estimate of their correlated errors.
 constexpr int kFewestBlocks = 15;
-/// As iteration of linearise(): the scale of the residuals stays what it is.
+/// As iteration of linearise(): keep the scale of the residuals.
 constexpr int kScaleIsKept = 1 << 20;
 
-/// One way of saying how well a pose aligns the live frame with the keyframe, on one level.
+/// A cost of aligning the live frame with the keyframe at a pose, on one level.
 class CostTerm {
  public:
   virtual ~CostTerm() = default;
 
   /// Cost at a pose, in nats: the mean over the points in view times the number of all points, so
-  /// that points that leave the view make it neither better nor worse. Infinite without any.
+  /// that points leaving the view do not change it. Infinite if none is in view.
   virtual double evaluate(const Eigen::Isometry3d& T_live_ref) = 0;
 
   /// Model around the pose of the last evaluate(). `iteration` counts from 0 on a level. A term may
-  /// first adapt its scale to what it sees; later costs are comparable with the cost returned here.
+  /// first update its scale; later costs are comparable with the cost returned here.
   virtual QuadraticModel linearise(int iteration) = 0;
 
-  /// Covariance of the gradient at the pose of the last evaluate(), from how blocks of the image
-  /// disagree (see RobustSum::scoreCovariance), and how many blocks there are. 0: not known, the
-  /// Hessian has to stand for it.
+  /// Covariance of the gradient at the pose of the last evaluate(), estimated from blocks of the
+  /// image (see RobustSum::scoreCovariance). Returns the number of blocks; 0: not known, use the
+  /// Hessian.
   virtual int gradientCovariance(Matrix6& covariance) const {
     covariance.setZero();
     return 0;
   }
 
-  /// How the derivatives of keyframe and live frame agree at the pose of the last evaluate().
-  /// @param most_points how many to compare at most: fewer are quicker, more tell less from chance
+  /// Agreement of the derivatives of keyframe and live frame at the pose of the last evaluate().
+  /// @param most_points maximum number of points: fewer are faster, more are more significant
   virtual Agreement agreement(std::size_t /*most_points*/) const { return {}; }
 };
 

@@ -15,12 +15,13 @@
 namespace mivo {
 
 /// Projective point to plane: the live depth Y where a keyframe point X falls should lie in the
-/// plane of X, r = n . (T_ref_live Y - X). Residuals are measured in deviations of a reading, so
-/// the term is in nats like the photometric ones; their scale is estimated, and never below one.
+/// plane of X, r = n . (T_ref_live Y - X). Residuals are in standard deviations of a depth reading,
+/// so that the cost is in nats like that of the photometric terms; their scale is estimated and at
+/// least one.
 class GeometricTerm : public CostTerm {
  public:
   /// Keeps references to points, live frame and warp. @param warp that of level 0. @param
-  /// num_points how many of the points to use, in their order.
+  /// num_points number of points to use, in their order.
   GeometricTerm(const GeometricPoints& points, std::size_t num_points, const FramePyramid& live,
                 const Warp& warp, const Parameters& parameters);
 

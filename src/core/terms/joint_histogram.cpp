@@ -11,7 +11,7 @@ namespace mivo {
 namespace {
 
 constexpr int kGreyLevels = 256;
-// high >= low + this, grey levels: an image of one grey is divided by something.
+// high >= low + this, grey levels: avoids division by zero for a uniform image.
 constexpr float kMinRange = 1.0F;
 // Keeps the topmost position inside of the last interval between two bins.
 constexpr float kBelowTop = 1e-3F;
@@ -110,7 +110,7 @@ void JointHistogram::takeLogarithms() {
   take(live_.data(), side, logarithm_.data());
   double sum = 0.0;
   for (std::size_t l = 0; l < side; ++l) sum -= live_[l] * logarithm_[l];
-  // Those of p_r go into the ratios first: they are needed row by row.
+  // The logarithms of p_r are stored in the ratios first, since they are needed row by row.
   take(reference_.data(), side, logarithm_.data());
   for (std::size_t r = 0; r < side; ++r) log_ratio_[r * side] = static_cast<float>(logarithm_[r]);
   for (std::size_t r = 0; r < side; ++r) sum -= reference_[r] * logarithm_[r];

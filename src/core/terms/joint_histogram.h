@@ -10,8 +10,7 @@
 
 namespace mivo {
 
-/// Grey levels that fill the bins: `low` falls on the centre of the first, `high` on that of the
-/// last.
+/// Range of grey levels of the bins: `low` is the centre of the first bin, `high` that of the last.
 struct IntensityRange {
   float low = 0.0F;
   float high = 255.0F;
@@ -21,7 +20,7 @@ struct IntensityRange {
 /// level wide.
 IntensityRange intensityRange(const cv::Mat& image, double quantile);
 
-/// Place of an intensity on the axis of bins: s = bin + fraction, 0 <= s < num_bins - 1.
+/// Position of an intensity on the axis of bins: s = bin + fraction, 0 <= s < num_bins - 1.
 /// Intensities outside of the range are clamped to its ends.
 struct BinPosition {
   int bin;
@@ -47,8 +46,8 @@ class Binning {
 };
 
 /// Joint histogram of keyframe and live image under cubic B-spline Parzen windows on both axes
-/// (Eq. 3), as probabilities. Each axis has two bins more than `num_bins`, so that no window leaves
-/// the table: a position in bin k touches rows k .. k + 3.
+/// (Eq. 3), as probabilities. Each axis has two additional bins, so that no window leaves the
+/// table: a position in bin k touches rows k .. k + 3.
 class JointHistogram {
  public:
   JointHistogram() = default;
@@ -72,7 +71,8 @@ class JointHistogram {
   void add(const kernels::BinsView& reference, const kernels::BinsView& live, const float* visible,
            std::size_t n);
 
-  /// Divides by the number of pairs added, and forms the marginals and what follows from them.
+  /// Divides by the number of added pairs, and computes marginals, log ratios and mutual
+  /// information.
   void normalise(std::size_t num_pairs);
 
   double joint(int reference, int live) const { return joint_[index(reference, live)]; }

@@ -24,15 +24,14 @@
 namespace mivo {
 namespace {
 
-/// What one chunk of points contributes.
+/// Contribution of one chunk of points.
 struct Part {
   std::vector<cv::Vec<float, 16>> memory;
   float* rows = nullptr;  // in it: n dp_rl / s, kRowFloats for each pair of bins
   std::size_t size = 0;
   kernels::MiSums sums;
 
-  /// All zero, and at the begin of a cache line: vectors that cross from one to the next cost
-  /// twice.
+  /// All zero, aligned to a cache line: vectors that cross cache lines cost twice.
   void clear(std::size_t num_floats) {
     constexpr std::size_t kLine = 64;
     size = num_floats;
@@ -94,7 +93,7 @@ MiDerivatives mutualInformationDerivatives(const ReferencePoints& points,
   const std::size_t n = points.size();
   const auto cells = static_cast<std::size_t>(histogram.side() * histogram.side());
   const auto scale = static_cast<double>(reference.bins_per_grey_level);
-  // A clamped intensity stays where it is under small motions.
+  // A clamped intensity does not change under small motions.
   Recycled<std::vector<float>> active;
   active->resize(n);
   for (std::size_t i = 0; i < n; ++i) (*active)[i] = visible[i] * reference.unclamped[i];

@@ -7,8 +7,8 @@
 namespace mivo {
 namespace {
 
-// min(n, this): neighbouring points say much the same: more of them do not make chance less likely.
-// The default of min_points: a level that has no more counts in full.
+// min(n, this): neighbouring points are correlated, so that more of them add no significance. Equal
+// to the default of min_points.
 constexpr double kIndependentPoints = 1500.0;
 // Eigenvalues of the correlation of the cubic B-spline windows between which intensities fall, for
 // intensities that fill the bins as those of images do: their sum and the sum of their squares grow

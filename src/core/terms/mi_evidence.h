@@ -5,14 +5,14 @@
 
 namespace mivo {
 
-/// Mutual information of a joint histogram held against what unrelated images reach by chance.
-/// Means the same for any number of bins and points. With n pairs of independent intensities 2 n MI
-/// is distributed as a sum of squares, as many as the windows of the bins leave independent.
+/// Significance of mutual information relative to unrelated images, independent of the numbers of
+/// bins and points. For n pairs of independent intensities, 2 n MI is a sum of squared Gaussians,
+/// as many as the overlapping windows of the bins leave independent.
 struct MiEvidence {
-  /// By how many standard deviations of chance it is more than chance reaches in the mean. Counts
-  /// at most 1500 points: neighbours repeat each other.
+  /// Number of standard deviations above the mean of unrelated images. Counts at most 1500 points,
+  /// because neighbours are correlated.
   double deviations = 0.0;
-  /// Correlation that two Gaussian images with as much mutual information would have, 0..1.
+  /// Correlation of two Gaussian images with the same mutual information, 0..1.
   double correlation = 0.0;
 };
 

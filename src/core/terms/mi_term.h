@@ -14,7 +14,7 @@
 
 namespace mivo {
 
-/// What mutual information needs of the keyframe on one level, computed once (section II-E).
+/// Data of the keyframe for mutual information on one level, computed once (section II-E).
 struct MiReference {
   std::vector<std::int32_t> bin;  ///< of each point, see BinPosition
   std::vector<float> fraction;
@@ -33,7 +33,7 @@ struct MiReference {
 /// Bins of the points of a level; `range` fills them.
 MiReference makeMiReference(const ReferencePoints& points, const IntensityRange& range,
                             const Parameters& parameters);
-/// The same into an old one, whose memory is reused.
+/// The same, reusing the memory of an existing one.
 void makeMiReference(const ReferencePoints& points, const IntensityRange& range,
                      const Parameters& parameters, MiReference& reference);
 
@@ -42,7 +42,7 @@ void makeMiReference(const ReferencePoints& points, const IntensityRange& range,
 class MiTerm : public CostTerm {
  public:
   /// Keeps references to all arguments but the range and the parameters. `points` need second
-  /// derivatives. @param live_range the grey levels of the live image that fill the bins.
+  /// derivatives. @param live_range range of grey levels of the live image.
   MiTerm(const ReferencePoints& points, const MiReference& reference, const cv::Mat& live_image,
          const IntensityRange& live_range, const Warp& warp, const Parameters& parameters);
 

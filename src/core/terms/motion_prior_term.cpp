@@ -11,7 +11,7 @@ Matrix6 derivativeOfError(const Vector6& error) {
   const Eigen::Matrix3d r = skew(error.tail<3>());
   Matrix6 J = Matrix6::Identity();
   J.topRightCorner<3, 3>() = -skew(error.head<3>());
-  // Inverse left Jacobian of SO(3) to the second order: predictions are not off by radians.
+  // Inverse left Jacobian of SO(3) to the second order: errors of predictions are small.
   J.bottomRightCorner<3, 3>() += -0.5 * r + r * r / 12.0;
   return J;
 }

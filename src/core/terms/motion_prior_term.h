@@ -7,14 +7,14 @@
 
 namespace mivo {
 
-/// The camera is about where its motion so far leads: half the squared distance of a pose from the
-/// expected one, over the covariance of that. Holds what the other terms leave open, where depth
-/// alone sees a plane or a corridor, and where a coarse level sees next to nothing.
+/// Prior at the predicted pose: half the squared Mahalanobis distance. It constrains directions
+/// that the other terms leave open, where depth alone shows a plane or a corridor, and coarse
+/// levels with little information.
 class MotionPriorTerm : public CostTerm {
  public:
   /// @param covariance of the expected pose's error, in the axes of the expected camera, m and rad
-  /// @param weight how many times the other terms count what they know, since their residuals are
-  /// not independent; the prior has to be counted as often.
+  /// @param weight factor by which the other terms are overconfident because of correlated
+  /// residuals; the prior is multiplied by it.
   MotionPriorTerm(const Eigen::Isometry3d& T_live_ref_expected, const Matrix6& covariance,
                   double weight);
 

@@ -14,8 +14,9 @@
 namespace mivo {
 namespace {
 
-// Blocks of the image whose points err together, in a row of it: of 640 pixels each has 64, and
-// there are some eighty, enough for a covariance of six numbers.
+// Number of blocks per row of the image; points of a block are assumed to have common errors. At
+// 640 x 480 there are about eighty blocks of 64 x 64 pixels, enough for a covariance of six
+// numbers.
 constexpr int kBlocksPerRow = 10;
 // Standard deviation of a Gaussian in medians of its magnitude.
 constexpr double kMedianToDeviation = 1.4826;
@@ -42,17 +43,16 @@ float startOf(std::uint32_t step) {
   return magnitude;
 }
 
-// So many residuals tell the scale to two hundredths; of more, only every second, third, ... is
-// asked.
+// This many residuals determine the scale to 2 %; of more, only every second, third, ... is used.
 constexpr std::size_t kEnoughForScale = 4096;
 
-/// Median of the magnitudes of the visible residuals to within half a step, a 64th of it; 0 when
-/// there is none among those asked.
+/// Median of the magnitudes of the visible residuals to within half a step, a 64th of it; 0 if none
+/// of the sampled ones is visible.
 float medianMagnitude(const Residuals& residuals) {
   std::array<std::uint32_t, kSteps> counts{};
   const std::size_t n = residuals.value.size();
   const std::size_t stride = std::max<std::size_t>(1, n / kEnoughForScale);
-  // Whether a point is visible is added, not asked: no branch can foresee it.
+  // Visibility is added instead of tested: the branch would be unpredictable.
   std::size_t num_visible = 0;
   for (std::size_t i = 0; i < n; i += stride) {
     const std::uint32_t is_visible = residuals.visible[i] != 0.0F ? 1U : 0U;
@@ -64,7 +64,7 @@ float medianMagnitude(const Residuals& residuals) {
   std::uint32_t step = 0;
   while (rank >= counts[step]) rank -= counts[step++];
   if (step == 0) return 0.0F;
-  // Those within a step are taken to be spread evenly.
+  // Values within a step are assumed to be uniformly distributed.
   const float share = (static_cast<float>(rank) + 0.5F) / static_cast<float>(counts[step]);
   const float low = startOf(step);
   return low + share * (startOf(step + 1) - low);
@@ -86,8 +86,8 @@ QuadraticModel toModel(const std::vector<kernels::LeastSquaresSums>& parts, doub
   return model;
 }
 
-/// What the losses' curvatures are of the weights, at least as much as for Gaussian residuals: what
-/// is far out may yet come back.
+/// Ratio of the losses' curvatures to the weights, at least that of Gaussian residuals, since
+/// outliers may become inliers.
 double curvatureShare(const std::vector<kernels::LeastSquaresSums>& parts, RobustWeight kind) {
   double weight = 0.0;
   double curvature = 0.0;
@@ -181,8 +181,9 @@ QuadraticModel RobustSum::linearise(const Residuals& residuals,
   QuadraticModel model =
       toModel(*parts, static_cast<double>(n) /
                           (static_cast<double>(residuals.num_visible) * scale_ * scale_));
-  // Made of the weights, the Hessian is larger than that of the cost, and every step too short.
-  // Residuals smaller than the least scale are not Gaussian of that scale, and ask for less.
+  // The Hessian of the weights alone is larger than that of the cost and makes every step too
+  // short. Residuals below the minimum scale are not Gaussian of that scale: their actual curvature
+  // is used.
   model.hessian *= scale_ > min_scale_ ? gaussianCurvature(kind_) : curvatureShare(*parts, kind_);
   model.cost = cost_;
   return model;

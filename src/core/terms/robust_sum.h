@@ -17,8 +17,8 @@ struct Residuals {
   std::size_t num_visible = 0;
 };
 
-/// The robust sum that SSD and the geometric term share: cost and normal equations of residuals
-/// whose scale is estimated from themselves, 1.4826 times the median of their magnitude.
+/// Robust least squares of SSD and depth term: cost and normal equations of residuals. Their scale
+/// is 1.4826 times the median of their magnitude.
 class RobustSum {
  public:
   /// @param min_scale lower bound of the scale, in units of the residuals
@@ -28,14 +28,14 @@ class RobustSum {
   /// call estimates the scale.
   double cost(const Residuals& residuals);
 
-  /// Model for residuals r(d) = r - J d, those of the last cost(). In the first iterations of a
-  /// level the scale is estimated anew.
+  /// Model for residuals r(d) = r - J d, those of the last cost(). The scale is estimated again in
+  /// the first iterations of a level.
   QuadraticModel linearise(const Residuals& residuals, const std::array<const float*, 6>& jacobian,
                            int iteration);
 
-  /// Covariance of the gradient that linearise() gives, from what the residuals do in blocks of the
-  /// image: neighbours err together (their depth, their blur), and count as one. In the units of
-  /// the Hessian; by H⁻¹ C H⁻¹ it becomes that of the increment. @param u, @param v pixels of the
+  /// Covariance of the gradient that linearise() gives, estimated from blocks of the image:
+  /// neighbouring points have common errors (depth, blur) and count as one. In the units of the
+  /// Hessian; by H⁻¹ C H⁻¹ it becomes that of the increment. @param u, @param v pixels of the
   /// points, in the image of `camera`. Returns the number of blocks with points.
   int scoreCovariance(const Residuals& residuals, const std::array<const float*, 6>& jacobian,
                       const std::vector<float>& u, const std::vector<float>& v,

@@ -11,9 +11,8 @@ constexpr float kTukey = 4.685F;
 // Degrees of freedom of Student's t.
 constexpr float kFreedom = 5.0F;
 
-/// Loss rho(u) of a residual u in units of its scale, convex near zero, its weight rho'(u) / u, and
-/// its curvature rho''(u), negative far out where the loss levels off. Shapes and constants stand
-/// at the parameter robust_weight.
+/// Loss rho(u) of a residual u in units of its scale, weight rho'(u) / u, and curvature rho''(u),
+/// which is negative for outliers. Formulas: parameter robust_weight.
 struct RobustLoss {
   float loss;
   float weight;
@@ -21,8 +20,7 @@ struct RobustLoss {
 };
 RobustLoss robustLoss(RobustWeight kind, float u);
 
-/// Mean curvature of the loss as a share of the mean weight, for Gaussian residuals. 1 without
-/// robust weights.
+/// Ratio of mean curvature to mean weight for Gaussian residuals; 1 without robust weights.
 double gaussianCurvature(RobustWeight kind);
 
 }  // namespace mivo

@@ -9,10 +9,10 @@
 namespace mivo {
 namespace {
 
-// correlation * sqrt(n) > this: that of n independent pairs is chance up to a few times 1 /
-// sqrt(n).
+// correlation * sqrt(n) > this: the correlation of n independent pairs has a standard deviation of
+// 1 / sqrt(n).
 constexpr double kSignificance = 4.0;
-// Small enough to leave the pose to any other term.
+// Small enough to have no influence beside another term.
 constexpr double kNoWeight = 1e-6;
 
 }  // namespace

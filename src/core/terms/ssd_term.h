@@ -14,10 +14,9 @@
 namespace mivo {
 
 /// Robust sum of squared differences (Eq. 1), inverse compositional Gauss-Newton: residual
-/// r = contrast * live - intensity, in grey levels, of the scale that the residuals themselves
-/// show. Where the parameters allow for it, normalised images may also be each other's negatives,
-/// as for mutual information: when they are at the first pose, the live one is taken as its
-/// negative.
+/// r = contrast * live - intensity, in grey levels, with a scale estimated from the residuals. If
+/// negative_images is set and the normalised images are negatively correlated at the first pose,
+/// the live image is inverted.
 class SsdTerm : public CostTerm {
  public:
   /// Of the first `num_points` points. Keeps references to all arguments but the parameters.
@@ -36,17 +35,17 @@ class SsdTerm : public CostTerm {
   /// Correlation of what keyframe and live image show at the last pose, -1..1.
   double correlation() const;
 
-  /// Whether that correlation is more than chance.
+  /// Whether that correlation is significant.
   bool isSignificant() const;
 
-  /// Whether it was so in the first iterations of the level. If not, the image says nothing about
-  /// the pose, and the term leaves it to the others.
+  /// Whether it was significant in the first iterations of the level. If not, the term has
+  /// practically no weight.
   bool isInformative() const { return weight_ == 1.0; }
 
   std::size_t numVisible() const { return residuals_->num_visible; }
   std::size_t numInView() const { return samples_->num_in_view; }  ///< saturated ones too
   const Residuals& residuals() const { return *residuals_; }
-  /// Where the points fall and what they see there; `visible` is with the residuals.
+  /// Projected points and sampled values; `visible` is stored with the residuals.
   const LiveSamples& samples() const { return *samples_; }
 
  private:
@@ -60,7 +59,7 @@ class SsdTerm : public CostTerm {
   RobustSum sum_;
   double saturation_;
   bool may_be_negative_;
-  double least_correlation_;  // a stronger negative one is no chance
+  double least_correlation_;  // a stronger negative correlation is significant
   bool is_inverted_ = false;
   int scale_iterations_;
   double weight_ = 1.0;

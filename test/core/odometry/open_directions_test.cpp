@@ -112,7 +112,7 @@ TEST(OpenDirectionsTest, DepthOfABlankWallLeavesItsPlaneOpen) {
     const Directions in_plane = {true, true, false, false, false, true};
     EXPECT_EQ(result.open_directions, in_plane) << i;
     EXPECT_EQ(describeReason(result),
-              "no view of motion sideways, up and down, turning about the viewing axis")
+              "motion is not observable: sideways, up and down, turning about the viewing axis")
         << i;
     expectHonest(result, slidden(i), i);
     EXPECT_LT(std::abs(errorAt(result, slidden(i))[2]), 0.01) << i;

@@ -50,7 +50,7 @@ class FaultsTest(unittest.TestCase):
             self.expect_line(mark, text)
         lines = self.listener.lines_since(mark, texts[0])
         self.assertEqual(len(lines), 1, "the message is not repeated")
-        self.assertIn("Trying again by itself", lines[0])
+        self.assertIn("Retrying", lines[0])
         self.assertTrue(
             self.listener.wait_diagnostics(
                 "camera", lambda v: texts[0] in v["summary"] and v["level"] == 2, PATIENCE))
@@ -81,12 +81,12 @@ class FaultsTest(unittest.TestCase):
         self.break_and_mend({"no_permission": 1}, {"no_permission": 0}, "Install the udev rules")
 
     def test_without_colour(self):
-        self.break_and_mend({"color": 0}, {"color": 1}, "has no colour stream",
+        self.break_and_mend({"color": 0}, {"color": 1}, "has no color stream",
                             "use a model with a colour camera")
 
     def test_without_registration(self):
         self.break_and_mend({"registration": 0}, {"registration": 1},
-                            "cannot register depth to colour", "depth_image_proc")
+                            "cannot register depth to color", "depth_image_proc")
 
     def test_half_the_rate(self):
         mark = self.listener.mark()
@@ -106,11 +106,11 @@ class FaultsTest(unittest.TestCase):
         self.expect_odometry()
 
     def test_lost_images_are_counted(self):
-        before = self.camera_value("colour dropped")
+        before = self.camera_value("color dropped")
         self.control.set(drop_every=5)
         self.assertTrue(
             self.listener.wait_diagnostics(
-                "camera", lambda v: float(v["colour dropped"]) > before + 5, PATIENCE))
+                "camera", lambda v: float(v["color dropped"]) > before + 5, PATIENCE))
         self.expect_odometry()
         self.control.set(drop_every=0)
         self.expect_odometry()

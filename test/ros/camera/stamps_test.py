@@ -26,7 +26,7 @@ class StampsTest(unittest.TestCase):
         depth = Counter("/camera/depth_registered/camera_info", CameraInfo)
         self.assertTrue(color.wait_more(SECONDS * 30 * 9 // 10, SECONDS + 60), "images stopped")
         truth = Truth(truth_path).read()
-        for name, counter in (("colour", color), ("depth", depth)):
+        for name, counter in (("color", color), ("depth", depth)):
             stamps = [m.header.stamp.to_sec() for m in counter.messages]
             self.assertGreater(len(stamps), SECONDS * 25)
             self.assertTrue(all(a < b for a, b in zip(stamps, stamps[1:])), name)
