@@ -55,8 +55,9 @@ void run(int argc, char** argv) {
       "bag_to_sequence",
       "Converts a bag to a sequence folder. Depth in millimeters is kept, depth in "
       "meters is converted to 5000 units per meter.");
-  line.arguments("BAG", &bags,
-                 "bag with color images, depth images and camera_info; several are one recording");
+  line.arguments(
+      "BAG", &bags,
+      "bag with color images, depth images and camera_info; several bags are one recording");
   line.argument("FOLDER", &folder, "sequence folder to write");
   mivo::declareTopics(line, &topics);
   line.options()("force", po::bool_switch(&force), "replace an existing sequence");

@@ -33,18 +33,18 @@ void run(int argc, char** argv) {
   std::string plot;
   bool force = false;
   bool topics_only = false;
-  mivo::CommandLine line(
-      "check_bag",
-      "Says what is wrong with a recording before the tracker is blamed: rates, gaps, order, "
-      "clocks, the calibration, registration (do edges of depth and colour agree), exposure, blur, "
-      "and how many pixels have depth.");
-  line.arguments("BAG", &bags, "a bag; several are one recording");
+  mivo::CommandLine line("check_bag",
+                         "Checks the quality of a recording: rates, gaps, order and clocks of the "
+                         "stamps, calibration, "
+                         "registration (alignment of edges in depth and color), exposure, blur, "
+                         "and coverage of depth.");
+  line.arguments("BAG", &bags, "bag; several bags are one recording");
   mivo::declareTopics(line, &topics);
   line.options()("plot", po::value(&plot)->value_name("FILE"),
-                 "draw it, as .pdf, .svg or .png (needs python3-matplotlib)")(
+                 "plot as .pdf, .svg or .png (needs python3-matplotlib)")(
       "csv", po::value(&csv)->value_name("FILE.csv"), "write one row per frame")(
       "force", po::bool_switch(&force), "replace existing files")(
-      "topics", po::bool_switch(&topics_only), "only say the topics and who recorded them");
+      "topics", po::bool_switch(&topics_only), "only print the topics and their layout");
   if (!line.parse(argc, argv)) return;
   if (topics_only) {
     printTopics(bags, topics);

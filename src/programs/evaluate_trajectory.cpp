@@ -41,7 +41,7 @@ void run(int argc, char** argv) {
   line.options()("delta", po::value(&options.delta)->default_value(options.delta, "1"),
                  "interval of the relative pose error, seconds")(
       "delta-metres", po::value(&options.delta_metres)->default_value(options.delta_metres, "1"),
-      "interval along the true path, meters")(
+      "interval of the relative pose error along the true path, meters")(
       "max-time-difference",
       po::value(&options.max_time_difference)->default_value(options.max_time_difference, "0.02"),
       "largest difference between the stamps of compared poses, seconds")(

@@ -16,8 +16,9 @@ void run(int argc, char** argv) {
       "run_bag",
       "Tracks an RGB-D camera through a bag, as fast as possible and without a ROS "
       "master, and writes its trajectory.");
-  line.arguments("BAG", &bags,
-                 "bag with color images, depth images and camera_info; several are one recording");
+  line.arguments(
+      "BAG", &bags,
+      "bag with color images, depth images and camera_info; several bags are one recording");
   mivo::declareTopics(line, &topics);
   mivo::TrackingCommandLine tracking;
   tracking.declare(line);

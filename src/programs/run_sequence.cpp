@@ -13,9 +13,9 @@ void run(int argc, char** argv) {
   mivo::CommandLine line(
       "run_sequence",
       "Tracks an RGB-D camera through a sequence folder and writes its trajectory.");
-  line.argument(
-      "FOLDER", &folder,
-      "folder with images and camera.txt in TUM's layout, or 7-Scenes, ScanNet, SUN3D, ...");
+  line.argument("FOLDER", &folder,
+                "sequence folder in the layout of TUM (images and camera.txt), 7-Scenes, ScanNet, "
+                "SUN3D, ...");
   mivo::TrackingCommandLine tracking;
   tracking.declare(line);
   if (!line.parse(argc, argv)) return;

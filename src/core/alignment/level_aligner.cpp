@@ -13,17 +13,18 @@
 namespace mivo {
 namespace {
 
-// The shutter is measured where noise is already averaged, but rows still differ.
+// The shutter is measured on this level: noise is averaged, but rows still differ.
 constexpr int kShutterLevel = 1;
-// The pixels of a level share what light, blur and depth err: mutual information counts about so
-// many times what it knows.
+// Errors by light, blur and depth are correlated between pixels: mutual information is
+// overconfident by about this factor.
 constexpr double kMiCountsTimes = 8.0;
-// Gradients of noise, grey levels per pixel: of a smoothed image a quarter of its noise, and up to
-// four times that at points that were chosen for being strong, but not below what rounding and
-// compression leave; of one that is compared as it is about so many.
+// Gradients caused by noise, grey levels per pixel. For a smoothed image: a quarter of its noise,
+// up to four times that at points selected for strong gradients, and at least that of rounding and
+// compression. For an unsmoothed image: about the second value.
 constexpr double kLeastNoiseGradient = 1.0;
 constexpr double kUsualNoiseGradient = 4.0;
-// Where few points have led the way all of them have one short step left, and need not try it.
+// After the leading points have converged, one short step with all points remains, which needs no
+// line search.
 constexpr double kLastTolerance = 4.0;
 
 /// Motion of the scene per frame period in the axes of the live camera at a pose.
@@ -31,8 +32,8 @@ Vector6 twistPerPeriod(const AlignmentTask& task, const Eigen::Isometry3d& T_liv
   return localCoordinates(T_live_ref * task.motion.T_previous_ref.inverse()) / task.motion.periods;
 }
 
-/// How many times a term counts what it knows: the covariance of its gradient would be its Hessian
-/// if its residuals were independent.
+/// Factor by which a term is overconfident: with independent residuals the covariance of its
+/// gradient would be its Hessian.
 double correlationFactor(GeometricTerm& term) {
   Matrix6 of_gradient;
   if (term.gradientCovariance(of_gradient) < kFewestBlocks) return 1.0;
@@ -73,7 +74,7 @@ void LevelAligner::run() {
 
 template <typename Term>
 bool LevelAligner::isEnoughInView(Term& term) const {
-  term.evaluate(alignment_.T_live_ref);  // always: the term is asked for its samples later
+  term.evaluate(alignment_.T_live_ref);  // always evaluated: its samples are used later
   return term.numVisible() >= static_cast<std::size_t>(parameters_.loss.lost_points);
 }
 
@@ -90,7 +91,7 @@ GeometricTerm* LevelAligner::geometricTerm(int num_points) {
   return &*geometry_;
 }
 
-/// What keeps the pose where little is seen. None when nothing is expected of it.
+/// Prior at the predicted pose; null when there is no prediction.
 MotionPriorTerm* LevelAligner::motionPrior(double weight) {
   const PoseExpectation& expected = task_.expected;
   if (!expected.is_known) return nullptr;
@@ -98,7 +99,7 @@ MotionPriorTerm* LevelAligner::motionPrior(double weight) {
   return &*prior_;
 }
 
-/// Levels whose result is kept are finished with care.
+/// Levels that determine the result use the full tolerance.
 double LevelAligner::toleranceOf(Stage stage) const {
   if (stage == Stage::kLast) return kLastTolerance;
   return level_ > kShutterLevel ? parameters_.alignment.coarse_tolerance : 1.0;
@@ -114,8 +115,8 @@ void LevelAligner::minimiseTerms(const LevelTerms& terms, Stage stage) {
   const std::size_t num_measuring = terms_->size();
   if (terms.prior != nullptr) terms_->push_back(terms.prior);
   const double tolerance = toleranceOf(stage);
-  // Mutual information is rugged near its maximum. Where no SSD follows that mends it, no step
-  // goes untried.
+  // Mutual information is rugged near its maximum. Without SSD on finer levels, every step is
+  // tested by the line search.
   const double trusted = parameters_.alignment.method == Method::kMi
                              ? 0.0
                              : tolerance * parameters_.alignment.trusted_step_pixels;
@@ -206,13 +207,13 @@ void LevelAligner::alignByMutualInformation() {
     alignment_.mutual_information = term.mutualInformation();
     alignment_.correlation =
         miEvidence(term.mutualInformation(), term.numVisible(), parameters_.mi.mi_bins).correlation;
-    // What decides about the frame is judged as SSD is.
+    // On level 0, where the result decides about the frame, it is judged like SSD.
     const bool is_strong =
         level_ > 0 || alignment_.correlation >= parameters_.loss.lost_correlation;
     alignment_.sees_image = is_strong && isRelated(term);
   }
   if (alignment_.sees_image) return;
-  // Chance, not structure: its maximum means nothing. Depth may still know the way.
+  // Not significant: the maximum is meaningless. Depth alone may still determine the pose.
   alignment_.T_live_ref = start;
   if (GeometricTerm* geometry = geometricTerm(parameters_.geometry.geometric_points_dark)) {
     LevelTerms terms;
@@ -229,7 +230,7 @@ SsdTerm LevelAligner::intensityTerm(std::size_t num_points) const {
                  parameters_);
 }
 
-/// The iterations are done with few points, if they see enough. Returns what is left to do.
+/// Iterates with the leading points, if enough are in view. Returns the remaining stage.
 LevelAligner::Stage LevelAligner::alignLeadingPoints() {
   if (points_.num_leading == points_.size() || alignment_.isDepthOnly()) return Stage::kOnly;
   SsdTerm term = intensityTerm(points_.num_leading);
@@ -262,7 +263,7 @@ void LevelAligner::alignBySsd() {
     terms.prior = motionPrior(correlationFactor(*geometry));
   minimiseTerms(terms, stage);
   if (geometry != nullptr) judgeDepth(*geometry);
-  // Of a view that shows nothing, or nothing but white, depth has the points.
+  // If the image shows nothing, or only white, the points of the depth term count.
   record_.visible = static_cast<int>(alignment_.sees_image || geometry == nullptr
                                          ? term.numVisible()
                                          : std::max(term.numVisible(), geometry->numVisible()));

@@ -10,11 +10,11 @@
 namespace mivo {
 namespace {
 
-// Derivatives of noise correlate by one over the square root of the number of points, and a few
-// times that where neighbours share their noise.
+// Derivatives of noise correlate by 1 / sqrt(number of points), and by a few times that where
+// neighbours share their noise.
 constexpr double kDeviationsOfChance = 6.0;
-// What is known worse than this, in median depths and rad, is five pixels wide, and known to
-// nobody.
+// A direction with a larger standard deviation (median depths, rad) is open: it corresponds to
+// about five pixels.
 constexpr double kLargestDeviation = 0.01;
 // A motion belongs to an open direction when so much of the direction is along it.
 constexpr double kPartOfDirection = 0.4;
@@ -52,7 +52,7 @@ std::optional<Correlation> correlationOf(const Agreement& agreement, const Matri
   const double gain = std::sqrt(by_keyframe.trace() / by_live.trace());
   const Matrix mean = 0.5 * (by_keyframe + gain * gain * by_live);
   const Matrix both = sign * gain * within(agreement.both, axes, scale);
-  // Next to nothing in a direction is nothing; the bound keeps the factor regular.
+  // The bound keeps the factor regular where a direction has almost no curvature.
   const Matrix regular = mean + 1e-12 * mean.trace() * Matrix::Identity(mean.rows(), mean.cols());
   const Eigen::SelfAdjointEigenSolver<Matrix> root(regular);
   const Matrix whitening = root.operatorInverseSqrt();

@@ -9,8 +9,7 @@
 
 namespace mivo {
 
-/// What one term knows about the pose: its Hessian (nats, of the increment), and how much of it the
-/// live frame confirms.
+/// Hessian of one term (nats, of the increment), and how much of it the live frame confirms.
 struct TermCurvature {
   Matrix6 hessian = Matrix6::Zero();
   Agreement agreement;
@@ -18,7 +17,7 @@ struct TermCurvature {
   double least_agreement = 0.0;
 };
 
-/// What the sight of a frame is held against.
+/// Quantities that decide whether a direction is open.
 struct ObservabilityInput {
   Matrix6 gradient_covariance = Matrix6::Identity();  ///< of the sum of the terms, nats
   /// Of the increment, as the motion so far expects it: m and rad.
@@ -27,16 +26,16 @@ struct ObservabilityInput {
   double open_deviations = 1.0;  ///< see the parameter
 };
 
-/// The directions of the increment by what image and depth say about them. One spectrum decides
-/// what is open and how sure the pose is in the others. Directions are orthonormal when translation
-/// is measured in median depths.
+/// Directions of the increment and how well image and depth constrain them. One eigendecomposition
+/// determines which directions are open and the covariance in the others. Directions are
+/// orthonormal when translation is measured in median depths.
 class Observability {
  public:
   /// Directions of the raw Hessian of all terms together.
   Observability(const Matrix6& hessian, const ObservabilityInput& input);
 
-  /// Looks again at the directions in doubt: keeps of each term's curvature in them what keyframe
-  /// and live frame agree on.
+  /// Reexamines doubtful directions: keeps only the part of each term's curvature on which keyframe
+  /// and live frame agree.
   void confirm(const std::array<bool, 6>& in_doubt, const std::vector<TermCurvature>& terms);
 
   /// How the derivatives of keyframe and live frame correlate in the direction in which they do so
@@ -47,7 +46,7 @@ class Observability {
   const Matrix6& axes() const { return axes_; }
   const Vector6& curvature() const { return curvature_; }
 
-  /// Open is what is fixed worse than by the motion so far, or by noise alone.
+  /// Open directions are determined worse than by the motion model, or by noise only.
   const std::array<bool, 6>& isOpen() const { return is_open_; }
   bool hasOpen() const;
 
@@ -66,8 +65,8 @@ class Observability {
   /// @param covariance of the increment
   Matrix6 covarianceOfDirections(const Matrix6& covariance) const;
 
-  /// Which motions of the camera lie in the open directions: those that have a large part in one.
-  /// @param T_live_ref the increments' pose: they are told in the axes of the live camera.
+  /// Motions of the camera with a large component along an open direction.
+  /// @param T_live_ref pose of the increments; the result is in the axes of the live camera.
   Directions openDirections(const Eigen::Isometry3d& T_live_ref) const;
 
  private:

@@ -12,8 +12,8 @@
 namespace mivo {
 namespace {
 
-// What interpolation, blur and the keyframe's depth leave of systematic error, pixels: all points
-// err alike, so that no residual shows it.
+// Systematic error by interpolation, blur and the keyframe's depth, pixels: equal for all points,
+// so that it does not show in the residuals.
 constexpr double kModelErrorPixels = 0.05;
 // Below this, derivatives of the finest images confirm nothing, see kLeastAgreementAbove: the steps
 // of oblique edges correlate by up to 0.6 there, those of a few points by up to 0.75.
@@ -22,20 +22,20 @@ constexpr double kLeastAgreementOfFew = 0.8;
 // On the coarsest level asked they correlate by 0.3 at most. What correlates by more there in all
 // directions is texture, and what the finer levels see of it only noise can hide.
 constexpr double kAgreementOfTexture = 0.75;
-// So many points tell in a tenth of a millisecond what most views show.
+// Number of points for a first, fast test (0.1 ms), which suffices for most views.
 constexpr std::size_t kPointsAtFirst = 1024;
-// What robust weights leave of a sum of squares, about.
+// Approximate mean of the robust weights.
 constexpr double kMeanWeight = 0.5;
-// The pose is sought again when holding it has moved the points by more than this.
+// The minimisation is repeated when holding the pose has moved the points by more than this.
 constexpr double kNoticeablePixels = 0.05;
 
 double pixelsOf(const Vector6& increment, const ReferencePoints& points) {
   return std::sqrt(std::max(0.0, increment.dot(points.pixel_motion * increment)));
 }
 
-/// Directions whose curvature could be that of noise: all if one could be. Noise couples what is
-/// not seen with what is seen a little, such as motion sideways with turning, so that the direction
-/// that is not seen lies across several axes of the Hessian.
+/// Directions whose curvature could be caused by noise; all if one could be. Noise couples open
+/// directions with weakly constrained ones, such as translation with rotation, so that an open
+/// direction spreads over several eigenvectors of the Hessian.
 std::array<bool, 6> directionsInDoubt(const Observability& seen, const FinishedDescent& descent,
                                       double least_correlation) {
   std::array<bool, 6> doubt{};
@@ -57,8 +57,8 @@ std::array<bool, 6> directionsInDoubt(const Observability& seen, const FinishedD
   return doubt;
 }
 
-/// Covariance of the gradient, of residuals that err together; the Hessian stands for it where that
-/// is not known. Six directions have been fitted to the blocks.
+/// Covariance of the gradient with correlated residuals; the Hessian where it is not known.
+/// Corrected for the six fitted degrees of freedom.
 Matrix6 gradientCovariance(const FinishedDescent& descent, const Matrix6& hessian) {
   Matrix6 of_gradient = Matrix6::Zero();
   int blocks = 0;
@@ -105,7 +105,7 @@ Observability lookAt(const FinishedDescent& descent, const Matrix6& expected_cov
   findCurvatures(descent, alignment, kPointsAtFirst, kLeastAgreementOfFew, *curvatures);
   few.confirm(doubt, *curvatures);
   if (!few.hasOpen()) return few;
-  // Before a direction is called open all points are asked, and coarser levels.
+  // Before a direction is declared open, all points and the coarser levels are tested.
   findCurvatures(descent, alignment, descent.points.size(), kLeastAgreement, *curvatures);
   descent.add_coarser(alignment.T_live_ref, *curvatures);
   if (seen.leastCorrelation(curvatures->back()) >= kAgreementOfTexture) {
@@ -115,8 +115,8 @@ Observability lookAt(const FinishedDescent& descent, const Matrix6& expected_cov
   return seen;
 }
 
-/// Most probable increment, given where the pose is expected, and that the descent's end is right
-/// in the directions that are seen.
+/// Most probable increment, given the predicted pose and the result of the minimisation in the
+/// constrained directions.
 struct Held {
   Vector6 increment = Vector6::Zero();
   Matrix6 covariance;

@@ -22,9 +22,9 @@ constexpr int kCoarsestAskedLevel = 2;
 /// the finest the correlation of that is up to 0.94.
 constexpr double kLeastAgreementAbove = 0.97;
 
-/// A descent that has come to its end on the finest level.
+/// A finished minimisation on the finest level.
 struct FinishedDescent {
-  const std::vector<CostTerm*>& terms;  ///< that measure the pose, at the end of the descent
+  const std::vector<CostTerm*>& terms;  ///< image and depth terms, evaluated at the result
   bool has_prior = false;               ///< the motion prior took part, too, and is in the Hessian
   const SsdTerm* image = nullptr;       ///< that of them whose residuals are grey levels, if any
   const ReferencePoints& points;
@@ -34,13 +34,13 @@ struct FinishedDescent {
   std::function<void(const Eigen::Isometry3d& T_live_ref, std::vector<TermCurvature>& curvatures)>
       add_coarser;
   const PoseExpectation& expected;
-  /// A direction along which the keyframe's image changes by less, grey levels per pixel, could
-  /// show nothing but noise.
+  /// Grey levels per pixel: along a direction with a smaller image gradient the curvature may be
+  /// caused by noise only.
   double noise_gradient = 0.0;
 };
 
-/// Finds the directions that the terms leave open, holds the pose in them where it is expected, and
-/// says how sure it is: writes pose, covariance, condition and open directions of the alignment.
+/// Finds open directions, holds the pose there at the prediction, and computes the covariance:
+/// writes pose, covariance, condition and open directions of the alignment.
 void holdOpenDirections(const FinishedDescent& descent, const Parameters& parameters,
                         Alignment& alignment);
 
