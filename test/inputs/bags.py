@@ -192,7 +192,7 @@ def rows(r):
     add("Files", "a damaged chunk, lz4 or bz2", lambda: damaged(r, flipped), 37, "1 of its parts are damaged",
         "costs its frames")
     add("Files", "a hole in an uncompressed bag",
-        lambda: r.bytes_of("x.bag", lambda d: d[:len(d) // 2] + b"\0" * 65536 + d[len(d) // 2 + 65536:]), 39,
+        lambda: r.bytes_of("x.bag", lambda d: d[:len(d) // 2] + b"\0" * 65536 + d[len(d) // 2 + 65536:]), 37,
         "1 of its parts are damaged", "costs its frames")
     add("Files", "ROS 2: `.mcap`, `.db3`, a folder", lambda: write(r, "x.mcap", b"\x89MCAP0\r\n"), 0,
         "it is a recording of ROS 2 (MCAP): convert it first")
