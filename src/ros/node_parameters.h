@@ -25,11 +25,11 @@ struct NodeParameters {
 
   bool required = false;  ///< a nodelet that cannot start fails to load; otherwise it stays idle
 
-  std::string rgb_transport = "raw";    ///< raw, compressed, or any that image_transport knows
-  std::string depth_transport = "raw";  ///< raw, compressed, compressedDepth, or any other
+  std::string rgb_transport = "raw";      ///< raw, compressed, or any that image_transport knows
+  std::string depth_transport = "raw";    ///< raw, compressed, compressedDepth, or any other
   std::string depth_registered = "auto";  ///< to colour: yes, no, or auto, by frames and topic
-  int queue_size = 10;                  ///< messages that wait for their partner, per input
-  bool approximate_sync = true;         ///< otherwise the stamps of colour and depth must be equal
+  int queue_size = 10;                    ///< messages that wait for their partner, per input
+  bool approximate_sync = true;  ///< otherwise the stamps of colour and depth must be equal
   double sync_tolerance = kMaxPairDifference;  ///< s, largest difference of the stamps of a pair
   bool drop_frames = true;  ///< the newest frame wins; otherwise all wait (for bags), and
                             ///< queue_size is 100 at least
