@@ -36,6 +36,7 @@ endfunction()
 
 # mivo_script(FILE): an executable script beside the programs.
 function(mivo_script file)
+  file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
   if(NOT EXISTS ${PROJECT_BINARY_DIR}/bin/${file})
     file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR}/${file} ${PROJECT_BINARY_DIR}/bin/${file} SYMBOLIC)
   endif()

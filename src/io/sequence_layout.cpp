@@ -94,12 +94,13 @@ void pairImages(const std::vector<ListedImage>& images, const std::vector<Listed
                     "nearest depth it is {:+.3f} s at the median",
                     whose, offset));
   }
-  const std::size_t alone = images.size() - listing.frames.size();
-  if (alone > 0) {
-    listing.notices.push_back(
-        fmt::format("{} of {} colour images have no depth image within 20 ms and are left out",
-                    alone, images.size()));
-  }
+  const auto leave_out = [&](const char* name, std::size_t count) {
+    const std::size_t alone = count - listing.frames.size();
+    if (alone == 0) return;
+    listing.left_out[std::string(name) + " image without a partner within 20 ms"] += alone;
+  };
+  leave_out("colour", images.size());
+  leave_out("depth", depths.size());
 }
 
 bool takeCameraFile(const fs::path& folder, SequenceListing& listing) {

@@ -26,10 +26,9 @@ struct ListedImage {
   std::string path;
 };
 
-/// Pairs colour with depth by their stamps, both lists in order, and says how many of them stay
-/// alone. Throws Error, with what was measured, when none is near another, or when the stamps of
-/// the two differ by the same time throughout, image for image: equal ones would not belong
-/// together.
+/// Pairs colour with depth by their stamps, both lists in order, and counts those that stay alone.
+/// Throws Error, with what was measured, when none is near another, or when the stamps of the two
+/// differ by the same time throughout, image for image: equal ones would not belong together.
 void pairImages(const std::vector<ListedImage>& images, const std::vector<ListedImage>& depths,
                 const std::string& whose, SequenceListing& listing);
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <cstddef>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -30,7 +32,8 @@ struct SequenceListing {
   DepthCoding depth_coding = DepthCoding::kPlain;
   /// The colour images show what the depth images show, at another size: they are reduced to it.
   bool is_colour_reduced = false;
-  std::vector<std::string> notices;  ///< what was assumed or put right
+  std::vector<std::string> notices;             ///< what was assumed or put right
+  std::map<std::string, std::size_t> left_out;  ///< images that became no frame, by the reason
 };
 
 /// Lists a folder in one of the layouts of doc/file_formats.md, which is recognised by its files.

@@ -13,6 +13,7 @@
 #include "io/image_file.h"
 #include "io/sequence_listing.h"
 #include "mivo/core/error.h"
+#include "session/depth_enlargement.h"
 #include "session/grey_range.h"
 
 namespace mivo {
@@ -32,13 +33,6 @@ std::string sizeText(const cv::Size& size) {
 
 cv::Size sizeOf(const Camera& camera) {
   return {camera.width, camera.height};
-}
-
-/// The larger size is the smaller one times a whole number.
-bool isMultiple(const cv::Size& larger, const cv::Size& smaller) {
-  return smaller.width > 0 && larger.width > smaller.width && larger.width % smaller.width == 0 &&
-         larger.height % smaller.height == 0 &&
-         larger.width / smaller.width == larger.height / smaller.height;
 }
 
 /// The camera of the same images at another size; pixel centres are at whole numbers.
@@ -125,13 +119,18 @@ class SequenceReader::Images {
     Frame frame = decode(listed);
     if (frame.image.size() != image_size_) refuseSize(listed.image_path, frame.image);
     if (frame.depth.size() != depth_size_) refuseSize(listed.depth_path, frame.depth);
-    if (image_size_ != depth_size_) {
+    if (fit_ == Fit::kReduceColour) {
       cv::resize(frame.image, frame.image, depth_size_, 0.0, 0.0, cv::INTER_AREA);
+    } else if (fit_ == Fit::kEnlargeDepth) {
+      frame.depth = enlargeDepth(frame.depth, frame.depth_unit, image_size_);
     }
     return frame;
   }
 
  private:
+  /// How colour and depth come to one size.
+  enum class Fit { kSame, kReduceColour, kEnlargeDepth };
+
   /// Images as they are stored, with values as a frame has them.
   Frame decode(const ListedFrame& listed) {
     Frame frame;
@@ -154,24 +153,39 @@ class SequenceReader::Images {
   void fit(const Frame& frame, const ListedFrame& listed) {
     image_size_ = frame.image.size();
     depth_size_ = frame.depth.size();
-    const bool is_reduced = image_size_ != depth_size_ &&
-                            (listing_.is_colour_reduced || isMultiple(image_size_, depth_size_));
     Camera& camera = listing_.camera.camera;
-    if (camera.width == 0) setSize(camera, is_reduced ? depth_size_ : image_size_);
-    if (sizeOf(camera) != image_size_ && !(is_reduced && sizeOf(camera) == depth_size_)) {
+    fit_ = fitOf(camera);
+    if (camera.width == 0) setSize(camera, fit_ == Fit::kReduceColour ? depth_size_ : image_size_);
+    if (sizeOf(camera) != image_size_ &&
+        !(fit_ == Fit::kReduceColour && sizeOf(camera) == depth_size_)) {
       refuseSize(listed.image_path, frame.image);
     }
-    if (!is_reduced && depth_size_ != image_size_) {
-      throw Error(fmt::format(
-          "{} has {} pixels, but the colour image {}: the depth is not registered to the colour "
-          "camera",
-          listed.depth_path, sizeText(depth_size_), sizeText(image_size_)));
+    if (fit_ == Fit::kSame && depth_size_ != image_size_) {
+      throw Error(
+          fmt::format("{} has {} pixels, but the colour image {}: the depth is not registered to "
+                      "the colour camera",
+                      listed.depth_path, sizeText(depth_size_), sizeText(image_size_)));
     }
-    if (!is_reduced) return;
-    camera = resized(camera, depth_size_);
+    if (fit_ == Fit::kReduceColour) {
+      camera = resized(camera, depth_size_);
+      tell("colour", image_size_, "reduced to the size of depth", depth_size_);
+    } else if (fit_ == Fit::kEnlargeDepth) {
+      tell("depth", depth_size_, "enlarged to the size of colour", image_size_);
+    }
+  }
+
+  /// Depth that is smaller by a whole factor is enlarged, as in bags, unless the camera is that of
+  /// the depth.
+  Fit fitOf(const Camera& camera) const {
+    if (image_size_ == depth_size_) return Fit::kSame;
+    if (listing_.is_colour_reduced) return Fit::kReduceColour;
+    if (!isWholeMultiple(image_size_, depth_size_)) return Fit::kSame;
+    return sizeOf(camera) == depth_size_ ? Fit::kReduceColour : Fit::kEnlargeDepth;
+  }
+
+  void tell(const char* image, const cv::Size& from, const char* action, const cv::Size& to) {
     listing_.notices.push_back(
-        fmt::format("colour of {} pixels is reduced to the size of depth, {}",
-                    sizeText(image_size_), sizeText(depth_size_)));
+        fmt::format("{} of {} pixels is {}, {}", image, sizeText(from), action, sizeText(to)));
   }
 
   /// Of an intrinsics file, which does not say for which size it is.
@@ -193,6 +207,7 @@ class SequenceReader::Images {
   SequenceListing listing_;
   cv::Size image_size_;
   cv::Size depth_size_;
+  Fit fit_ = Fit::kSame;
   GreyRange range_;
 };
 
@@ -223,6 +238,10 @@ FrameSource::Status SequenceReader::next(Frame& frame, FrameFault& fault) {
   fault.reason = withoutPath(withoutPath(fault.text, listed.image_path, "the colour image"),
                              listed.depth_path, "the depth image");
   return Status::kSkipped;
+}
+
+const std::map<std::string, std::size_t>& SequenceReader::leftOut() const {
+  return images_->listing().left_out;
 }
 
 std::string SequenceReader::depthUnit() const {

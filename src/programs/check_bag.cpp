@@ -7,6 +7,7 @@
 #include "mivo/io/output_file.h"
 #include "programs/bag_options.h"
 #include "programs/command_line.h"
+#include "programs/output_paths.h"
 #include "programs/python_plot.h"
 #include "ros/bag_check.h"
 #include "ros/recording.h"
@@ -51,9 +52,10 @@ void run(int argc, char** argv) {
     return;
   }
   const mivo::Overwrite overwrite = force ? mivo::Overwrite::kYes : mivo::Overwrite::kNo;
-  for (const std::string& file : {plot, csv}) {
-    if (!file.empty()) mivo::refuseExisting(file, overwrite);
-  }
+  std::vector<mivo::NamedFile> inputs;
+  for (const std::string& bag : bags) inputs.push_back({"BAG", bag});
+  if (!plot.empty()) mivo::requirePlotEnding("--plot", plot);
+  mivo::requireOutputs({{"--plot", plot}, {"--csv", csv}}, inputs, overwrite);
   const mivo::BagReport report = mivo::checkBag(bags, topics);
   print(std::cout, report);
   if (!csv.empty()) mivo::OutputFile(csv, overwrite).write(toCsv(report));

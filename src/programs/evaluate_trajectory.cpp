@@ -8,7 +8,7 @@
 #include "mivo/io/output_file.h"
 #include "programs/command_line.h"
 #include "programs/output_paths.h"
-#include "programs/plot_script.h"
+#include "programs/python_plot.h"
 #include "programs/trajectory_pair.h"
 
 namespace {
@@ -67,8 +67,8 @@ void run(int argc, char** argv) {
   tell(evaluation.notice);
   if (!json_path.empty()) mivo::OutputFile(json_path, overwrite).write(toJson(figures));
   if (!plot_path.empty()) {
-    mivo::runPlotScript("plot_evaluation", plot_path,
-                        mivo::plotDataOf(files.truth, files.estimate, evaluation));
+    mivo::plotWithPython("plot_evaluation",
+                         mivo::plotDataOf(files.truth, files.estimate, evaluation), plot_path);
   }
 }
 

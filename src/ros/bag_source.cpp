@@ -7,7 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <utility>
 
 #include "core/camera_doubt.h"
 #include "mivo/core/error.h"
@@ -18,9 +18,7 @@
 #include "ros/pose_conversion.h"
 #include "ros/stamp.h"
 #include "ros/topics.h"
-#include "session/frame_order.h"
 #include "session/stamp_order.h"
-#include "session/stamp_pairer.h"
 
 namespace mivo {
 namespace {
@@ -38,30 +36,18 @@ ImageMessageConstPtr readImage(const RecordedMessage& message) {
   return wrap(message.read<sensor_msgs::Image>());
 }
 
-const char* nameOf(ImageStream stream) {
-  return stream == ImageStream::kColour ? "colour" : "depth";
-}
-
-std::string withoutPartner(ImageStream stream) {
-  return std::string(nameOf(stream)) + " image without a partner within 20 ms";
-}
-
 }  // namespace
 
 /// The image messages of a recording.
 struct BagSource::Index {
-  struct Entry {
-    ImageStream stream;
-    Message message;
-  };
-  std::vector<Entry> images;  // in the order in which they were recorded
+  std::vector<StreamedImage> images;  // in the order in which they were recorded
   std::size_t damaged = 0;
   std::optional<double> clock_offset;
 
   std::vector<double> stamps(ImageStream stream) const {
     std::vector<double> stamps;
-    for (const Entry& image : images) {
-      if (image.stream == stream) stamps.push_back(image.message.stamp);
+    for (const StreamedImage& image : images) {
+      if (image.stream == stream) stamps.push_back(image.image.stamp);
     }
     return stamps;
   }
@@ -135,10 +121,6 @@ BagSource::Index BagSource::readIndex(Recording::Reader reader) {
   return index;
 }
 
-void BagSource::leaveOut(const std::string& reason, std::size_t count) {
-  if (count > 0) left_out_[reason] += count;
-}
-
 void BagSource::tell(const std::string& text) {
   if (!text.empty()) notice_ += (notice_.empty() ? "" : "; ") + text;
 }
@@ -163,16 +145,14 @@ void BagSource::findPairs(const Index& index) {
                   error.what());
     }
   }
-  leaveOut("damaged message", index.damaged);
   clock_offset_ = index.clock_offset;
   if (index.clock_offset) clock_fault_ = describeClockFault(*index.clock_offset);
-  std::vector<Pair> dropped;
-  const auto left_out = left_out_;
-  pairAsRecorded(index, dropped);
-  // The order of the recording is believed unless it contradicts most stamps.
-  if (dropped.size() > pairs_.size()) {
-    left_out_ = left_out;
-    sortPairs(index);
+  BagPairs found = pairImages(index.images);
+  pairs_ = std::move(found.pairs);
+  left_out_ = std::move(found.left_out);
+  if (index.damaged > 0) left_out_["damaged message"] = index.damaged;
+  if (found.is_sorted_anew) {
+    tell("the images were recorded in another order than that of their stamps, and are sorted");
   }
   requirePairs(index);
   tellPairOffset();
@@ -191,61 +171,6 @@ void BagSource::tellPairOffset() {
   if (std::abs(offset) < kNotedPairOffset) return;
   tell(fmt::format("depth is stamped {:.1f} ms {} than the colour images that it is paired with",
                    1000.0 * std::abs(offset), offset > 0.0 ? "later" : "earlier"));
-}
-
-/// As the node does it with the same messages.
-void BagSource::pairAsRecorded(const Index& index, std::vector<Pair>& dropped) {
-  std::map<StampFault, std::size_t> faults;
-  FrameOrder<Pair> order(
-      [&](Pair& pair, bool is_new_time) {
-        pairs_.push_back(pair);
-        pairs_.back().is_new_time = is_new_time;
-      },
-      [&](Pair& pair, StampFault fault) {
-        dropped.push_back(pair);
-        ++faults[fault];
-      });
-  std::map<ImageStream, std::size_t> singles;
-  PairingOptions options;
-  options.capacity = std::numeric_limits<std::size_t>::max();
-  StampPairer<Message> pairer(
-      options,
-      [&](Message& colour, Message& depth) {
-        order.push(colour.stamp, {colour, depth});
-      },
-      [&](ImageStream stream, Message&) { ++singles[stream]; });
-  for (const Index::Entry& image : index.images) {
-    pairer.push(image.stream, image.message.stamp, image.message);
-  }
-  pairer.flush();
-  order.flush();
-  for (const auto& [stream, count] : singles) leaveOut(withoutPartner(stream), count);
-  for (const auto& [fault, count] : faults) leaveOut(describe(fault), count);
-}
-
-void BagSource::sortPairs(const Index& index) {
-  pairs_.clear();
-  std::vector<Message> streams[2];
-  for (const ImageStream stream : {ImageStream::kColour, ImageStream::kDepth}) {
-    std::vector<Message>& messages = streams[static_cast<std::size_t>(stream)];
-    for (const Index::Entry& image : index.images) {
-      if (image.stream == stream) messages.push_back(image.message);
-    }
-    leaveOut(describe(StampFault::kLate), putInOrder(messages).doubled);
-  }
-  const auto stamps = [&](std::size_t stream) {
-    std::vector<double> list;
-    for (const Message& message : streams[stream]) list.push_back(message.stamp);
-    return list;
-  };
-  for (const auto& [i, j] : pairByStamp(stamps(0), stamps(1))) {
-    pairs_.push_back({streams[0][i], streams[1][j]});
-  }
-  for (const ImageStream stream : {ImageStream::kColour, ImageStream::kDepth}) {
-    leaveOut(withoutPartner(stream),
-             streams[static_cast<std::size_t>(stream)].size() - pairs_.size());
-  }
-  tell("the images were recorded in another order than that of their stamps, and are sorted");
 }
 
 void BagSource::requirePairs(const Index& index) const {

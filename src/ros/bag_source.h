@@ -9,6 +9,7 @@
 #include "mivo/io/frame_range.h"
 #include "mivo/io/frame_source.h"
 #include "mivo/trajectory/stamped_pose.h"
+#include "ros/bag_pairs.h"
 #include "ros/bag_topics.h"
 #include "ros/calibration_history.h"
 #include "ros/message_frame.h"
@@ -54,17 +55,7 @@ class BagSource : public FrameSource {
   /// Leaves out the frame that next() would read.
   void passOver() { ++next_; }
 
-  /// One image message of the bag.
-  struct Message {
-    double stamp;  ///< s, of its header
-    RecordedMessage recorded;
-  };
-
-  struct Pair {
-    Message colour;
-    Message depth;
-    bool is_new_time = false;  ///< time was set back before it
-  };
+  using Pair = BagPair;
   const std::vector<Pair>& pairs() const { return pairs_; }
 
   /// Images of one pair, for those who want more than a Frame. They refer to messages that live
@@ -86,12 +77,9 @@ class BagSource : public FrameSource {
             Recording::Reader reader);
   Index readIndex(Recording::Reader reader);
   void findPairs(const Index& index);
-  void pairAsRecorded(const Index& index, std::vector<Pair>& dropped);
-  void sortPairs(const Index& index);
   void requirePairs(const Index& index) const;
   void tellPairOffset();
   void take(const FrameRange& range);
-  void leaveOut(const std::string& reason, std::size_t count);
   void tell(const std::string& text);
   void findDepthGeometry(bool is_depth_chosen);
   ImagePair messagesOf(const Pair& pair);

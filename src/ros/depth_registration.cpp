@@ -6,46 +6,14 @@
 #include <limits>
 
 #include "mivo/core/error.h"
+#include "session/depth_enlargement.h"
 
 namespace mivo {
 namespace {
 
 constexpr float kNoReading = std::numeric_limits<float>::quiet_NaN();
-// Readings further apart than this share of their depth are of different surfaces.
-constexpr float kSameSurface = 0.05F;
 // Of a pixel's half side: pixels that touch leave no seams between them.
 constexpr float kOverlap = 1.05F;
-
-/// Metres; NaN for no reading.
-float metresAt(const DepthImage& depth, int x, int y) {
-  const float metres =
-      depth.image.type() == CV_16UC1
-          ? static_cast<float>(depth.image.at<std::uint16_t>(y, x)) * static_cast<float>(depth.unit)
-          : depth.image.at<float>(y, x);
-  return metres > 0.0F && std::isfinite(metres) ? metres : kNoReading;
-}
-
-/// Between readings. The inverse depth of a plane is linear in the pixel.
-float interpolated(const DepthImage& depth, float x, float y) {
-  const int columns = depth.image.cols;
-  const int rows = depth.image.rows;
-  const int left = std::clamp(static_cast<int>(std::floor(x)), 0, std::max(0, columns - 2));
-  const int top = std::clamp(static_cast<int>(std::floor(y)), 0, std::max(0, rows - 2));
-  const int nearest_x = std::clamp(static_cast<int>(std::lround(x)), 0, columns - 1);
-  const int nearest_y = std::clamp(static_cast<int>(std::lround(y)), 0, rows - 1);
-  const float nearest = metresAt(depth, nearest_x, nearest_y);
-  if (columns < 2 || rows < 2 || std::isnan(nearest)) return nearest;
-  const float corners[4] = {metresAt(depth, left, top), metresAt(depth, left + 1, top),
-                            metresAt(depth, left, top + 1), metresAt(depth, left + 1, top + 1)};
-  for (const float corner : corners) {
-    if (!(std::abs(corner - nearest) <= kSameSurface * nearest)) return nearest;
-  }
-  const float u = x - static_cast<float>(left);
-  const float v = y - static_cast<float>(top);
-  const float upper = (1.0F - u) / corners[0] + u / corners[1];
-  const float lower = (1.0F - u) / corners[2] + u / corners[3];
-  return 1.0F / ((1.0F - v) * upper + v * lower);
-}
 
 /// Where a point of the colour camera's frame falls, in pixels; nothing behind it or outside of its
 /// lens.
@@ -86,23 +54,8 @@ void paint(const Eigen::Vector2f& centre, float half_width, float half_height, f
 }  // namespace
 
 DepthImage enlargeDepth(const DepthImage& depth, const cv::Size& size) {
-  const cv::Size small = depth.image.size();
-  if (small == size || small.width <= 0 || small.height <= 0) return depth;
-  const int factor = size.width / small.width;
-  if (factor < 2 || factor * small.width != size.width || factor * small.height != size.height) {
-    return depth;
-  }
-  DepthImage large;
-  large.image.create(size, CV_32FC1);
-  const float scale = 1.0F / static_cast<float>(factor);
-  for (int y = 0; y < size.height; ++y) {
-    auto* row = large.image.ptr<float>(y);
-    for (int x = 0; x < size.width; ++x) {
-      row[x] = interpolated(depth, (static_cast<float>(x) + 0.5F) * scale - 0.5F,
-                            (static_cast<float>(y) + 0.5F) * scale - 0.5F);
-    }
-  }
-  return large;
+  if (!isWholeMultiple(size, depth.image.size())) return depth;
+  return {enlargeDepth(depth.image, depth.unit, size), depth.unit};
 }
 
 void DepthRegistration::findRays(const Camera& depth_camera) {
@@ -137,7 +90,7 @@ DepthImage DepthRegistration::toColour(const DepthImage& depth, const Camera& de
   auto ray = rays_.begin();
   for (int y = 0; y < depth.image.rows; ++y) {
     for (int x = 0; x < depth.image.cols; ++x, ++ray) {
-      const float metres = metresAt(depth, x, y);
+      const float metres = depthInMetres(depth.image, depth.unit, x, y);
       if (std::isnan(metres) || ray->z() == 0.0F) continue;
       const Eigen::Vector3f point = T * (metres * *ray);
       Eigen::Vector2f pixel;

@@ -34,7 +34,8 @@ void InputWarnings::lookAtFrames(const ImagePair& pair, TransformSource& transfo
   // In doubles: times that do not belong together may differ by more than a Duration holds.
   lookAtClock(ros::Time::now().toSec() - colour.stamp.toSec());
   const std::string& depth_frame = pair.depth->header.frame_id;
-  if (!pair.depth_geometry && depth_frame != colour.frame_id && !has_warned_of_frames_) {
+  if (parameters_.depth_registered == "auto" && !pair.depth_geometry &&
+      depth_frame != colour.frame_id && !has_warned_of_frames_) {
     has_warned_of_frames_ = true;
     ROS_WARN(
         "color images have the frame_id %s, depth images %s: depth must be registered to the "

@@ -24,6 +24,7 @@ void visit(NodeParameters& p, Visitor&& visitor) {
   visitor("tf_timeout", p.tf_timeout, 0.0, kMaxTolerance);
   visitor("rgb_transport", p.rgb_transport);
   visitor("depth_transport", p.depth_transport);
+  visitor("depth_registered", p.depth_registered);
   visitor("queue_size", p.queue_size, 1, kMaxQueueSize);
   visitor("approximate_sync", p.approximate_sync);
   visitor("sync_tolerance", p.sync_tolerance, 0.0, kMaxTolerance);
@@ -51,6 +52,11 @@ NodeParameters readNodeParameters(const ros::NodeHandle& node) {
   stripSlash(parameters.odom_frame);
   stripSlash(parameters.base_frame);
   stripSlash(parameters.guess_frame_id);
+  const std::string& registered = parameters.depth_registered;
+  if (registered != "auto" && registered != "yes" && registered != "no") {
+    throw Error("parameter '" + node.resolveName("depth_registered") + "' is '" + registered +
+                "', expected auto, yes or no");
+  }
   if (parameters.odom_frame.empty() || parameters.base_frame.empty()) {
     throw Error("parameters '" + node.resolveName("odom_frame") + "' and '" +
                 node.resolveName("base_frame") + "' must not be empty");

@@ -110,7 +110,11 @@ void OdometryNode::work() {
 void OdometryNode::locateDepth(ImagePair& pair) {
   const std::string& colour = pair.colour->header.frame_id;
   const std::string& depth = pair.depth->header.frame_id;
-  if (!pair.depth_info || !isUnregistered(colour, depth, input_->depthTopic())) return;
+  const std::string& registered = parameters_.depth_registered;
+  const bool is_beside =
+      registered == "no" ||
+      (registered == "auto" && isUnregistered(colour, depth, input_->depthTopic()));
+  if (!pair.depth_info || !is_beside) return;
   const std::optional<Eigen::Isometry3d> T_colour_depth = transforms_.between(colour, depth);
   if (!T_colour_depth) {
     throw Error(

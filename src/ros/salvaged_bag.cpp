@@ -153,8 +153,7 @@ std::size_t SalvagedBag::scanRecord(std::size_t position) {
 /// when there is none.
 std::optional<std::size_t> SalvagedBag::headerAround(std::size_t field) const {
   const std::size_t begin = field - std::min(field, kMostBefore);
-  const std::vector<std::uint8_t> part =
-      read(begin, std::min(file_size_ - begin, 2 * kMostBefore));
+  const std::vector<std::uint8_t> part = read(begin, std::min(file_size_ - begin, 2 * kMostBefore));
   for (std::size_t at = field - begin; at >= 4; --at) {
     const std::size_t size = number(part.data() + at - 4);
     if (size < kChunkField.size() || at + size > part.size()) continue;

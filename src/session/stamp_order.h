@@ -20,8 +20,8 @@ struct StampOrder {
 /// Throws Error, for all stamps (s) of a list are the same.
 [[noreturn]] void refuseEqualStamps(std::size_t count, double stamp);
 
-/// Seconds in a unit of the stamps of a list: 1, or that of milli-, micro- or nanoseconds, when they
-/// are whole numbers that are a time of today so, or hours apart otherwise.
+/// Seconds in a unit of the stamps of a list: 1, or that of milli-, micro- or nanoseconds, when
+/// they are whole numbers that are a time of today so, or hours apart otherwise.
 double stampUnit(std::vector<double> stamps);
 
 /// "nanoseconds" and so on.

@@ -192,7 +192,7 @@ def rows(r):
     add("Files", "a damaged chunk, lz4 or bz2", lambda: damaged(r, flipped), 37, "1 of its parts are damaged",
         "costs its frames")
     add("Files", "a hole in an uncompressed bag",
-        lambda: r.bytes_of("x.bag", lambda d: d[:len(d) // 2] + b"\0" * 65536 + d[len(d) // 2 + 65536:]), 39,
+        lambda: r.bytes_of("x.bag", lambda d: d[:len(d) // 2] + b"\0" * 65536 + d[len(d) // 2 + 65536:]), 37,
         "1 of its parts are damaged", "costs its frames")
     add("Files", "ROS 2: `.mcap`, `.db3`, a folder", lambda: write(r, "x.mcap", b"\x89MCAP0\r\n"), 0,
         "it is a recording of ROS 2 (MCAP): convert it first")
@@ -342,6 +342,22 @@ def trajectories(folder, stem):
     return texts
 
 
+def play(r, bags, *arguments):
+    """What bag.launch says."""
+    return subprocess.run(
+        [os.path.join(ROOT, "test/ros/run_with_ros"), r.build, "roslaunch", "--port", "0", "mivo", "bag.launch",
+         "bag:=" + " ".join(bags), "rviz:=false", "output:=" + r.path("out_node.txt"), "force:=true", "delay:=0.5",
+         *arguments], text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False, timeout=90).stdout
+
+
+def tf_fault_of(r, bag, *arguments):
+    """Why no odometry was published for want of tf; empty: it was."""
+    clean(r)
+    said = play(r, [bag], *arguments)
+    texts = trajectories(r.folder, "out_node")
+    return said if not texts or texts[0].count("\n") < 10 or "no odometry is published before tf" in said else ""
+
+
 def node_fault_of(r, row):
     """Why the node's poses are not those of run_bag; empty: they are."""
     clean(r)
@@ -349,15 +365,12 @@ def node_fault_of(r, row):
     bags = bags if isinstance(bags, list) else [bags]
     track(r, bags)
     expected = trajectories(r.folder, "out")
-    launch = subprocess.run(
-        [os.path.join(ROOT, "test/ros/run_with_ros"), r.build, "roslaunch", "--port", "0", "mivo", "bag.launch",
-         "bag:=" + " ".join(bags), "rviz:=false", "output:=" + r.path("out_node.txt"), "force:=true", "delay:=0.5"],
-        text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False, timeout=90)
+    said = play(r, bags)
     got = trajectories(r.folder, "out_node")
     if got == expected:
         return ""
     count = [[text.count("\n") - 1 for text in texts] for texts in (got, expected)]
-    return "poses of the node %s, of run_bag %s: %s" % (*count, launch.stdout if count[0] != count[1] else "other values")
+    return "poses of the node %s, of run_bag %s: %s" % (*count, said if count[0] != count[1] else "other values")
 
 
 def table_text(table):
@@ -403,6 +416,12 @@ def main(arguments):
             fault = node_fault_of(r, row) if "--node" in arguments else fault_of(r, row, base_error)
             bad += bool(fault)
             print("%s: %s: %s" % (row.group, row.title, fault or "as told"), flush=True)
+        if "--node" in arguments and not only:
+            without = r.change("x.bag", lambda topic, *_: [] if topic == "/tf_static" else None)
+            for title, fault in (("played from the middle", tf_fault_of(r, r.base, "start:=0.5")),
+                                 ("a bag without tf", tf_fault_of(r, without))):
+                bad += bool(fault)
+                print("tf: %s: %s" % (title, fault or "there"), flush=True)
         return 1 if bad else 0
 
 

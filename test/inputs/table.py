@@ -54,7 +54,7 @@ def motion():
 def said(errors, output, program, folder):
     """What the program told, without its name and with DIR for the folder, as one line."""
     lines = [line for line in errors.splitlines() if not line.startswith("skipped: ")]
-    lines += [line for line in output.splitlines() if line.startswith("skipped (")]
+    lines += [line for line in output.splitlines() if line.startswith(("skipped (", "left_out ("))]
     text = "; ".join(lines).replace(program + ": ", "").replace("note: ", "")
     return text.replace(os.path.realpath(folder), "DIR").replace(folder, "DIR").replace("|", "\\|")
 

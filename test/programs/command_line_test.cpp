@@ -53,6 +53,23 @@ TEST_F(CommandLineTest, PairTakesTwoNumbersAndLeavesTheArguments) {
   EXPECT_EQ(out_, "b");
 }
 
+TEST(CommandLineListTest, TakesWhatTheOtherArgumentsLeave) {
+  std::vector<std::string> bags;
+  std::string folder;
+  CommandLine line("tool", "Does something.");
+  line.arguments("BAG", &bags, "inputs");
+  line.argument("FOLDER", &folder, "output");
+  const auto parse = [&](std::vector<const char*> arguments) {
+    arguments.insert(arguments.begin(), "tool");
+    line.parse(static_cast<int>(arguments.size()), arguments.data());
+  };
+  parse({"a", "b", "c", "out"});
+  EXPECT_EQ(bags, (std::vector<std::string>{"a", "b", "c"}));
+  EXPECT_EQ(folder, "out");
+  EXPECT_NE(line.help().find("tool BAG... FOLDER"), std::string::npos);
+  EXPECT_THROW(parse({"a"}), UsageError);
+}
+
 TEST_F(CommandLineTest, WrongUsageIsRefused) {
   EXPECT_THROW(parse({"a"}), UsageError);
   EXPECT_THROW(parse({"a", "b", "c"}), UsageError);

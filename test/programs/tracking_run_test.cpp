@@ -106,6 +106,60 @@ TEST_F(TrackingRunTest, WhatHasBeenComputedIsKeptWhenTheSourceFails) {
   EXPECT_EQ(numRows(), 3);
 }
 
+/// The plane again after half of the frames, with stamps and calibration that the test chooses.
+class ChangingSource : public PlaneSource {
+ public:
+  ChangingSource(int frames, const Change& change, bool changes_camera)
+      : PlaneSource(frames, change), half_(frames / 2), changes_camera_(changes_camera) {
+    other_ = PlaneSource::camera();
+    other_.fx += 0.5;
+  }
+  const Camera& camera() const override {
+    return changes_camera_ && read_ > half_ ? other_ : PlaneSource::camera();
+  }
+  Status next(Frame& frame, FrameFault& fault) override {
+    ++read_;
+    return PlaneSource::next(frame, fault);
+  }
+  bool startsAnew() const override { return !changes_camera_ && read_ == half_ + 1; }
+  const std::map<std::string, std::size_t>& leftOut() const override { return left_out_; }
+
+ private:
+  int half_;
+  bool changes_camera_;
+  int read_ = 0;
+  Camera other_;
+  std::map<std::string, std::size_t> left_out_ = {{"colour image without a partner", 3}};
+};
+
+TEST_F(TrackingRunTest, TimeSetBackGoesOnInAnotherFileAtTheLastPose) {
+  ChangingSource source(
+      10,
+      [](int i, Frame& frame) {
+        if (i >= 5) frame.stamp -= 20.0;
+      },
+      false);
+  const TrackingSummary summary = trackFrames(source, options_);
+  EXPECT_EQ(summary.segments, 2);
+  EXPECT_EQ(summary.frames, 10U);
+  EXPECT_EQ(summary.left_out, (CountByReason{{"colour image without a partner", 3}}));
+  EXPECT_EQ(written(), (std::vector<int>{0, 1, 2, 3, 4}));
+  const Trajectory second = readTrajectory(folder_ / "trajectory_2.txt");
+  ASSERT_EQ(second.size(), 5U);
+  EXPECT_NEAR(second[0].stamp, planeStamp(5) - 20.0, 1e-6);
+  const Trajectory first = readTrajectory(options_.output);
+  EXPECT_TRUE(second[0].pose.isApprox(first[4].pose, 1e-9));
+}
+
+TEST_F(TrackingRunTest, AnotherCalibrationBeginsASegmentAtTheLastPose) {
+  ChangingSource source(10, keep, true);
+  const TrackingSummary summary = trackFrames(source, options_);
+  EXPECT_EQ(summary.segments, 2);
+  const Trajectory poses = readTrajectory(options_.output);
+  ASSERT_EQ(poses.size(), 10U);
+  EXPECT_TRUE(poses[5].pose.isApprox(poses[4].pose, 1e-9));
+}
+
 TEST_F(TrackingRunTest, RefusedFramesAreNoPosesAndAreToldOncePerReason) {
   const TrackingSummary summary = track(12, [](int i, Frame& frame) {
     if (i >= 4 && i < 7) frame.stamp = planeStamp(3);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <memory>
 #include <string>
 
@@ -23,8 +24,8 @@ namespace mivo {
 /// or as ICL-NUIM, Bonn, ETH3D-SLAM, 7-Scenes, ScanNet and SUN3D have it, see doc/file_formats.md.
 ///
 /// The stamp of a frame is that of its colour image. The frames come in the order of their stamps,
-/// whatever the order of the lines; of lines with the same stamp the first counts. Colour that is
-/// larger than depth by a whole factor is reduced to it. All this is told by notice().
+/// whatever the order of the lines; of lines with the same stamp the first counts. Depth that is
+/// smaller than colour by a whole factor is enlarged. All this is told by notice().
 class SequenceReader : public FrameSource {
  public:
   /// Opens the folder and looks at the first images. Throws Error when the folder or one of its
@@ -45,6 +46,7 @@ class SequenceReader : public FrameSource {
 
   std::string depthUnit() const override;
   const std::string& notice() const override { return notice_; }
+  const std::map<std::string, std::size_t>& leftOut() const override;
 
  private:
   class Images;  // read, decoded, brought to one size
