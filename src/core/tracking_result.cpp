@@ -34,7 +34,7 @@ const char* toString(TrackingReason reason) {
     case TrackingReason::kOpenDirections:
       return "motion is not observable in some directions";
     case TrackingReason::kAmbiguous:
-      return "two poses explain the image equally well";
+      return "two poses match the image equally well";
     case TrackingReason::kImplausibleMotion:
       return "motion exceeds lost_speed or lost_turn_rate";
     case TrackingReason::kNotFinite:

@@ -95,7 +95,7 @@ void TrackingRun::restart(double stamp) {
   session_.restart();
   openTrajectory();
   tell(
-      fmt::format("frame of stamp {:.6f}: time was set back; tracking starts anew at the last "
+      fmt::format("frame of stamp {:.6f}: time was set back; tracking restarts at the last "
                   "pose, and the trajectory goes on in {}",
                   stamp, numberedPath(options_.output, trajectories_)));
 }
@@ -109,7 +109,7 @@ void TrackingRun::track(const Frame& frame, const Camera& camera, bool starts_an
   }
   if (session_.setCamera(camera)) {
     tell(
-        fmt::format("frame of stamp {:.6f}: the calibration has changed; tracking starts anew at "
+        fmt::format("frame of stamp {:.6f}: the calibration has changed; tracking restarts at "
                     "the last pose",
                     frame.stamp));
   }

@@ -142,7 +142,7 @@ void warnOfImages(BagReport& report) {
     warn(fmt::format("{} frames cannot be used: {}", count, reason));
   }
   if (report.calibrations > 1) {
-    warn(fmt::format("{} calibrations: tracking starts anew with each", report.calibrations));
+    warn(fmt::format("{} calibrations: tracking restarts with each", report.calibrations));
   }
   if (report.edge_shift && std::hypot(report.edge_shift->x, report.edge_shift->y) > kEdgeShift) {
     warn(fmt::format(

@@ -28,7 +28,7 @@ enum class TrackingReason {
   kNoOverlap,          ///< too few of the keyframe's points are in view
   kNothingInCommon,    ///< image unrelated to the keyframe: dark, covered, or another place
   kOpenDirections,     ///< image and depth do not constrain all directions: see open_directions
-  kAmbiguous,          ///< another pose explains the images as well: the covariance covers both
+  kAmbiguous,          ///< two poses match the image equally well: the covariance includes both
   kImplausibleMotion,  ///< faster than the limits allow
   kNotFinite           ///< the alignment diverged
 };
