@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <nodelet/nodelet.h>
+#include <ros/this_node.h>
 
+#include <cstdlib>
 #include <exception>
 #include <memory>
 #include <pluginlib/class_list_macros.hpp>
-#include <stdexcept>
-#include <string>
 
 #include "ros/odometry_node.h"
 
@@ -31,9 +31,10 @@ class OdometryNodelet : public nodelet::Nodelet {
     } catch (const std::exception& error) {  // no exception may end the nodelet manager
       if (getPrivateNodeHandle().param("required", false)) {
         NODELET_ERROR_STREAM("cannot start: " << error.what());
-        // The manager refuses to load it, and then unloads this library: an exception of a type
-        // from in here would outlive its code.
-        throw std::runtime_error(error.what());
+        // Alone in its process it ends that at once: the loader would unload this library under the
+        // exception that comes out of it, and crash.
+        if (getName() == ros::this_node::getName()) std::_Exit(1);
+        throw;  // the manager refuses to load it
       }
       NODELET_ERROR_STREAM("idle: " << error.what());
       diagnostics_->setFault(error.what());
