@@ -15,8 +15,10 @@ import tempfile
 import unittest
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.realpath(__file__))))
+SCRIPTS = {"plot_evaluation"}
+ROS_SCRIPTS = {"play_bag", "plot_bag"}
 PROGRAMS = {"evaluate_trajectory", "generate_sequence", "relight_sequence", "run_sequence"}
-ROS_PROGRAMS = {"bag_to_sequence", "odometry_node", "openni2_node", "run_bag", "sequence_to_bag"}
+ROS_PROGRAMS = {"bag_to_sequence", "check_bag", "odometry_node", "openni2_node", "run_bag", "sequence_to_bag"}
 EXAMPLES = ("1_track_folder", "2_track_images", "3_align_two_frames")
 PRIVATE_VARIABLES = ("LD_LIBRARY_PATH", "CMAKE_PREFIX_PATH", "ROS_PACKAGE_PATH", "PYTHONPATH")
 
@@ -58,7 +60,8 @@ class InstallTest(unittest.TestCase):
 
     def test_programs_are_installed_and_run(self):
         folder = os.path.join(self.prefix, "lib/mivo")
-        self.assertEqual(self.programs(), set(os.listdir(folder)))
+        scripts = SCRIPTS | (ROS_SCRIPTS if self.with_ros else set())
+        self.assertEqual(self.programs() | scripts, set(os.listdir(folder)))
         for name in sorted(self.programs()):
             libraries = run("ldd", os.path.join(folder, name))
             self.assertNotIn("not found", libraries, name)

@@ -53,20 +53,32 @@ TEST_F(CommandLineTest, PairTakesTwoNumbersAndLeavesTheArguments) {
   EXPECT_EQ(out_, "b");
 }
 
-TEST(CommandLineListTest, TakesWhatTheOtherArgumentsLeave) {
-  std::vector<std::string> bags;
-  std::string folder;
-  CommandLine line("tool", "Does something.");
-  line.arguments("BAG", &bags, "inputs");
-  line.argument("FOLDER", &folder, "output");
-  const auto parse = [&](std::vector<const char*> arguments) {
+/// A tool that takes several bags and a folder.
+class CommandLineListTest : public ::testing::Test {
+ protected:
+  CommandLineListTest() {
+    line_.arguments("BAG", &bags_, "inputs");
+    line_.argument("FOLDER", &folder_, "output");
+  }
+
+  void parse(std::vector<const char*> arguments) {
     arguments.insert(arguments.begin(), "tool");
-    line.parse(static_cast<int>(arguments.size()), arguments.data());
-  };
+    line_.parse(static_cast<int>(arguments.size()), arguments.data());
+  }
+
+  std::vector<std::string> bags_;
+  std::string folder_;
+  CommandLine line_{"tool", "Does something."};
+};
+
+TEST_F(CommandLineListTest, TakesWhatTheOtherArgumentsLeave) {
   parse({"a", "b", "c", "out"});
-  EXPECT_EQ(bags, (std::vector<std::string>{"a", "b", "c"}));
-  EXPECT_EQ(folder, "out");
-  EXPECT_NE(line.help().find("tool BAG... FOLDER"), std::string::npos);
+  EXPECT_EQ(bags_, (std::vector<std::string>{"a", "b", "c"}));
+  EXPECT_EQ(folder_, "out");
+  EXPECT_NE(line_.help().find("tool BAG... FOLDER"), std::string::npos);
+}
+
+TEST_F(CommandLineListTest, NeedsOneOfThem) {
   EXPECT_THROW(parse({"a"}), UsageError);
 }
 
