@@ -85,8 +85,7 @@ void differentiate(const ReferenceImage& image, bool with_second_derivative,
                    ReferencePoints& points, Workspace& work) {
   const std::vector<Pixel>& pixels = points.pixels;
   const bool smooths_across = image.contrast != nullptr;
-  const std::size_t places =
-      smooths_across || with_second_derivative ? kPlaces : kPlacesOfGradient;
+  const std::size_t places = smooths_across || with_second_derivative ? kPlaces : kPlacesOfGradient;
   if (image.contrast != nullptr) {
     sampleNormalised(image, pixels, places, work);
   } else if (image.grey.type() == CV_8UC1) {
