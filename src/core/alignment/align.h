@@ -69,15 +69,14 @@ struct Alignment {
   bool has_open_directions = false;          ///< some directions are open
   Directions open_directions{};              ///< in the axes of the live camera
   Matrix6 open_projector = Matrix6::Zero();  ///< onto them, of motions in those axes
-  double condition = 0.0;               ///< weakest over strongest curvature on the finest level
-  int points = 0;                       ///< in view on the finest level
-  double overlap = 0.0;                 ///< fraction of the finest level's points in view
-  bool sees_image = false;              ///< image and keyframe match on the finest level
-  bool is_live_dark = false;            ///< the live image has too little contrast
-  bool is_keyframe_dark = false;        ///< the keyframe's image has too little contrast
-  bool sees_depth = false;              ///< the depth term was used on the finest level
-  double mutual_information = 0.0;      ///< nats, on the finest level that uses it
-  double residual_scale = 0.0;          ///< grey levels, on the finest SSD level
+  int points = 0;                            ///< in view on the finest level
+  double overlap = 0.0;                      ///< fraction of the finest level's points in view
+  bool sees_image = false;                   ///< image and keyframe match on the finest level
+  bool is_live_dark = false;                 ///< the live image has too little contrast
+  bool is_keyframe_dark = false;             ///< the keyframe's image has too little contrast
+  bool sees_depth = false;                   ///< the depth term was used on the finest level
+  double mutual_information = 0.0;           ///< nats, on the finest level that uses it
+  double residual_scale = 0.0;               ///< grey levels, on the finest SSD level
   double depth_scale = 0.0;             ///< residuals of the geometric term in deviations (or 0)
   double correlation = 0.0;             ///< of the images, on the finest level
   ReadoutMeasurement readout;           ///< measured by this frame

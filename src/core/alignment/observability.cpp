@@ -144,11 +144,6 @@ bool Observability::hasOpen() const {
   return std::any_of(is_open_.begin(), is_open_.end(), [](bool open) { return open; });
 }
 
-double Observability::condition() const {
-  const double strongest = curvature_.maxCoeff();
-  return strongest > 0.0 ? curvature_.minCoeff() / strongest : 0.0;
-}
-
 Matrix6 Observability::openProjector() const {
   Matrix6 projector = Matrix6::Zero();
   for (int i = 0; i < 6; ++i) {

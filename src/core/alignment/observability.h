@@ -50,8 +50,6 @@ class Observability {
   const std::array<bool, 6>& isOpen() const { return is_open_; }
   bool hasOpen() const;
 
-  double condition() const;  ///< weakest over strongest curvature
-
   /// Projects increments onto the open directions along the others; zero when all are seen.
   Matrix6 openProjector() const;
 

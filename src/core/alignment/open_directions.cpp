@@ -149,7 +149,6 @@ void holdOpenDirections(const FinishedDescent& descent, const Parameters& parame
                         Alignment& alignment) {
   const Matrix6 expected_covariance = descent.expected.incrementCovariance();
   const Observability seen = lookAt(descent, expected_covariance, parameters, alignment);
-  alignment.condition = seen.condition();
   alignment.has_open_directions = seen.hasOpen();
   const double angle = kModelErrorPixels / descent.camera.fx;
   const Matrix6 model_error =

@@ -40,7 +40,7 @@ struct FinishedDescent {
 };
 
 /// Finds open directions, holds the pose there at the prediction, and computes the covariance:
-/// writes pose, covariance, condition and open directions of the alignment.
+/// writes pose, covariance and open directions of the alignment.
 void holdOpenDirections(const FinishedDescent& descent, const Parameters& parameters,
                         Alignment& alignment);
 

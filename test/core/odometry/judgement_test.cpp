@@ -18,7 +18,6 @@ Alignment goodAlignment() {
   alignment.sees_image = true;
   alignment.sees_depth = true;
   alignment.correlation = 0.9;
-  alignment.condition = 0.01;
   return alignment;
 }
 
