@@ -39,10 +39,10 @@ cv::Ptr<cv::rgbd::OdometryFrame> PeerOdometry::prepare(const Frame& frame) {
   const cv::Mat image = undistorter_.image(frame.image);
   const cv::Mat raw = undistorter_.depth(frame.depth);
   undistortion_milliseconds_ = undistorter_.isNeeded() ? threadMilliseconds() - start : 0.0;
-  cv::Mat metres;
-  raw.convertTo(metres, CV_32FC1, raw.type() == CV_16UC1 ? frame.depth_unit : 1.0);
-  metres.setTo(std::numeric_limits<float>::quiet_NaN(), raw == 0);
-  return cv::rgbd::OdometryFrame::create(image, metres);
+  cv::Mat meters;
+  raw.convertTo(meters, CV_32FC1, raw.type() == CV_16UC1 ? frame.depth_unit : 1.0);
+  meters.setTo(std::numeric_limits<float>::quiet_NaN(), raw == 0);
+  return cv::rgbd::OdometryFrame::create(image, meters);
 }
 
 bool PeerOdometry::process(const Frame& frame) {

@@ -43,7 +43,7 @@ function(mivo_script file)
   install(PROGRAMS ${file} DESTINATION lib/mivo)
 endfunction()
 
-# Tests are compiled more often than they run; what they test is optimised.
+# Tests are compiled more often than they run; what they test is optimized.
 set(MIVO_TEST_OPTIONS -O1)
 
 # mivo_test(NAME LIBRARIES libraries... SOURCES sources...): a GoogleTest program run by ctest, which

@@ -34,7 +34,7 @@ int main(int argc, char** argv) {
       }
       const double stamp = static_cast<double>(i) / 30.0;  // s; use the camera's time stamp
       const mivo::TrackingResult& result =
-          odometry->process({stamp, mivo::toGrey(image, mivo::ChannelOrder::kBgr), depth, 0.001});
+          odometry->process({stamp, mivo::toGray(image, mivo::ChannelOrder::kBgr), depth, 0.001});
       if (!result.isMeasured()) {  // lost or refused: the pose is a guess, do not use it
         std::cout << i << " " << toString(result.state) << ": " << describeReason(result) << "\n";
         continue;

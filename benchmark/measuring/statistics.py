@@ -16,7 +16,7 @@ def read_value_file(path):
 
 
 def rpe(figures, which="rmse"):
-    """Metres and degrees of what evaluate_trajectory printed."""
+    """Meters and degrees of what evaluate_trajectory printed."""
     return (float(figures[f"rpe_translation_{which}_m"]),
             float(figures[f"rpe_rotation_{which}_deg"]))
 
@@ -53,7 +53,7 @@ def deviation(values):
 
 
 def quantile(values, share):
-    """Interpolated between neighbours."""
+    """Interpolated between neighbors."""
     ordered = sorted(values)
     place = share * (len(ordered) - 1)
     low = int(place)

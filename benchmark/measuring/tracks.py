@@ -12,7 +12,7 @@ from measuring.trajectories import interpolated, read_trajectory
 MEASURED = ("tracking", "degraded")
 
 # `row` has all statistics; pose and truth (4x4) are None where there is none. Poses and statistics
-# belong together by stamp: an initialising frame has statistics alone.
+# belong together by stamp: an initializing frame has statistics alone.
 Frame = collections.namedtuple("Frame", "stamp state segment row pose truth")
 
 
@@ -33,8 +33,8 @@ def in_microseconds(stamp):
 
 
 def pose_of(row, poses):
-    """Of an initialising frame the pose that may be written means nothing."""
-    return None if row["state"] == "initialising" else poses.get(in_microseconds(row["stamp"]))
+    """Of an initializing frame the pose that may be written means nothing."""
+    return None if row["state"] == "initializing" else poses.get(in_microseconds(row["stamp"]))
 
 
 def measured(frames):

@@ -33,7 +33,7 @@ def poses_at(stamps, truth_stamps, truth_poses, tolerance=0.02):
 
 
 def interpolated(stamps, truth_stamps, truth_poses, longest=0.1):
-    """The true pose at each stamp, between its neighbours; None where they are farther apart (s)
+    """The true pose at each stamp, between its neighbors; None where they are farther apart (s)
     than `longest` or there is none."""
     poses = []
     for stamp in stamps:
@@ -113,7 +113,7 @@ def covariance_of(row, name="covariance"):
     return covariance
 
 
-def normalised_error(estimate, truth, covariance):
+def normalized_error(estimate, truth, covariance):
     """Squared error of a pose over its covariance (NEES); 6 in the mean for an honest one."""
     vector = vector_of(np.linalg.inv(estimate) @ truth)
     return vector @ np.linalg.solve(covariance, vector)

@@ -10,7 +10,7 @@ from measuring.methods import TIMED
 FIRST = ["--reference", "first"]
 FIRST_SETTINGS = ["--set", "keyframe_policy=first", "--set", "motion_model=constant_pose"]
 DISTURB = ["--disturb", "0.005", "0.005", "--seed", "1"]  # m, rad
-FOLDERS = ["convergence", "levels", "optimiser", "pictures", "runs", "sequences"]
+FOLDERS = ["convergence", "levels", "optimizer", "pictures", "runs", "sequences"]
 
 
 class Experiments:
@@ -25,13 +25,13 @@ class Experiments:
         self.film_jobs = {}
         self.variants = plans.PAPER_METHODS if paper_only else plans.variants()
         self.has_peers = programs.has("run_peer")
-        self.has_optimisers = programs.has("optimiser_experiment")
+        self.has_optimizers = programs.has("optimizer_experiment")
         for key in plan.sequences:
             if not paper_only or key not in plan.beyond or key in (plan.basin, plan.basin_relit):
                 self.film(key)
         self.add_convergence()  # the longest jobs, so that none is left over at the end
         self.add_runs()
-        self.add_optimisers()
+        self.add_optimizers()
         self.add_level_times()
         self.add_pictures()
 
@@ -134,18 +134,18 @@ class Experiments:
     def convergence_path(self, method, relit):
         return os.path.join("convergence", method + ("-relit" if relit else "") + ".csv")
 
-    def add_optimisers(self):
-        if not self.has_optimisers:
+    def add_optimizers(self):
+        if not self.has_optimizers:
             return
-        words = self.pair_words(self.plan.optimiser_magnitudes, self.plan.optimiser_trials)
-        for name, _ in plans.OPTIMISERS:
-            command = [self.program("optimiser_experiment"), self.sequence(self.plan.basin),
-                       "--output", self.optimiser_path(name), "--optimiser", name]
-            self.add(self.optimiser_path(name), [command + words + plans.MI.words()],
+        words = self.pair_words(self.plan.optimizer_magnitudes, self.plan.optimizer_trials)
+        for name, _ in plans.OPTIMIZERS:
+            command = [self.program("optimizer_experiment"), self.sequence(self.plan.basin),
+                       "--output", self.optimizer_path(name), "--optimizer", name]
+            self.add(self.optimizer_path(name), [command + words + plans.MI.words()],
                      alone=True, **self.source(self.plan.basin))
 
-    def optimiser_path(self, name):
-        return os.path.join("optimiser", name + ".csv")
+    def optimizer_path(self, name):
+        return os.path.join("optimizer", name + ".csv")
 
     def add_level_times(self):
         """Table I by the means of the speed benchmark. The runs take turns, as there."""

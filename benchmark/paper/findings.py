@@ -47,10 +47,10 @@ def subselection(results):
             100 * gap, 100 * half, times[1], times[0]))
 
 
-def optimiser(results):
+def optimizer(results):
     merit = {}
     for name in ("newton", "lbfgs", "lbfgs_differences"):
-        rows = [row for rows in results.optimiser(name).values() for row in rows]
+        rows = [row for rows in results.optimizer(name).values() for row in rows]
         merit[name] = (np.mean([row["success"] for row in rows]),
                        np.median([row["milliseconds"] for row in rows]))
     newton, best = merit["newton"], max(merit["lbfgs"][0], merit["lbfgs_differences"][0])
@@ -125,8 +125,8 @@ def all_findings(results):
         found.append(basin_finding(results, "%d bins have a narrower basin than %d" % (many, few),
                                    bins[many], bins[few]))
     found.append(subselection(results))
-    if results.experiments.has_optimisers:
-        found.append(optimiser(results))
+    if results.experiments.has_optimizers:
+        found.append(optimizer(results))
     for case in ("s1", "s2"):
         found.append(static_light(results, case, "first", "from the last pose"))
         found.append(static_light(results, case, "disturbed", "from a disturbed pose"))

@@ -50,7 +50,7 @@ class PoseCost : public ceres::FirstOrderFunction {
     return d;
   }
   Eigen::Isometry3d pose(const Vector6& p) const {
-    return orthonormalised(T_live_ref_ * retract(increment(p)).inverse());
+    return orthonormalized(T_live_ref_ * retract(increment(p)).inverse());
   }
   int evaluations() const { return evaluations_; }
   int gradients() const { return gradients_; }
@@ -65,7 +65,7 @@ class PoseCost : public ceres::FirstOrderFunction {
   /// With retract(d + dd) = retract(e) retract(d): e_w = J dd_w and e_v = dd_v + v x e_w.
   Vector6 gradientOfTerm(const Vector6& p) const {
     const Vector6 d = increment(p);
-    const Vector6 g = term_.linearise(0).gradient;
+    const Vector6 g = term_.linearize(0).gradient;
     Vector6 result;
     result.head<3>() = length_ * g.head<3>();
     const Eigen::Matrix3d J = leftJacobian(d.tail<3>());
@@ -92,7 +92,7 @@ class PoseCost : public ceres::FirstOrderFunction {
 
 }  // namespace
 
-LbfgsResult minimiseByLbfgs(CostTerm& term, const Eigen::Isometry3d& T_live_ref, double length,
+LbfgsResult minimizeByLbfgs(CostTerm& term, const Eigen::Isometry3d& T_live_ref, double length,
                             GradientSource source, const Parameters& parameters) {
   auto* function = new PoseCost(term, T_live_ref, length, source);
   const ceres::GradientProblem problem(function);  // owns the function

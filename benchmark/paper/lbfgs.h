@@ -21,11 +21,11 @@ struct LbfgsResult {
   int gradients = 0;
 };
 
-/// Minimises one term over the pose by L-BFGS of Ceres, with its defaults (Wolfe line search,
+/// Minimizes one term over the pose by L-BFGS of Ceres, with its defaults (Wolfe line search,
 /// rank 20, 50 iterations) but the tolerance of the cost, which is `min_cost_change` as in
-/// minimise(). Unknowns are p with T = T_start retract(d)^-1, d = (length * p_v, p_w): translations
+/// minimize(). Unknowns are p with T = T_start retract(d)^-1, d = (length * p_v, p_w): translations
 /// in units of the scene's depth, so that all six count alike.
-LbfgsResult minimiseByLbfgs(CostTerm& term, const Eigen::Isometry3d& T_live_ref, double length,
+LbfgsResult minimizeByLbfgs(CostTerm& term, const Eigen::Isometry3d& T_live_ref, double length,
                             GradientSource source, const Parameters& parameters);
 
 }  // namespace mivo

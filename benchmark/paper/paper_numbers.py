@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What the paper reports: K. S. Shankar and N. Michael, "Robust Direct Visual Odometry using Mutual
-Information", 2016, Tables I to III. Errors are (mean, standard deviation), metres and radians."""
+Information", 2016, Tables I to III. Errors are (mean, standard deviation), meters and radians."""
 
 # Level: SSD, MI and hybrid in ms on a desktop i7 at 640x480.
 TABLE_1 = {

@@ -46,7 +46,7 @@ CONVERGENCE_METHODS = (
     + [raw("mi_all", "MI, 8 bins, all pixels", method="mi", mi_bins=8, point_fraction=1), HYBRID,
        DEFAULT])
 RELIT_METHODS = [SSD, MI, HYBRID, DEFAULT]
-OPTIMISERS = [("newton", "Newton, full Hessian"), ("lbfgs", "L-BFGS, the same gradient"),
+OPTIMIZERS = [("newton", "Newton, full Hessian"), ("lbfgs", "L-BFGS, the same gradient"),
               ("lbfgs_differences", "L-BFGS, gradient by differences")]
 PEERS = [(key, "OpenCV " + title) for key, title in methods.PEERS.items()]
 
@@ -97,8 +97,8 @@ class Plan:
             self.size = ["--width", "320", "--height", "240", "--samples", "1"]
         self.trials = 60 if quick else 1000
         self.magnitudes = [0.05, 0.1, 0.2] if quick else [0.05, 0.1, 0.15, 0.2, 0.3, 0.4]
-        self.optimiser_trials = 10 if quick else 200
-        self.optimiser_magnitudes = [0.02, 0.1] if quick else [0.02, 0.05, 0.1, 0.15]
+        self.optimizer_trials = 10 if quick else 200
+        self.optimizer_magnitudes = [0.02, 0.1] if quick else [0.02, 0.05, 0.1, 0.15]
         self.pairs = 3 if quick else 10
         self.repetitions = 1 if quick else 3  # of what measures time
         self.seed = 7

@@ -33,14 +33,14 @@ def save(figure, path):
     figure.tight_layout()
     figure.savefig(path)
     plt.close(figure)
-    # 64 colours are enough for greys and one blue, and a third of the size.
+    # 64 colors are enough for grays and one blue, and a third of the size.
     with Image.open(path) as picture:
         small = picture.convert("RGB").quantize(64, dither=Image.NONE)
     small.save(path, optimize=True)
 
 
 def show(axes, path, title, **options):
-    """A grey picture of a PNG file."""
+    """A gray picture of a PNG file."""
     axes.imshow(plt.imread(path), cmap="gray", interpolation="antialiased", **options)
     axes.set_title(title, fontsize=9)
     axes.set_axis_off()
@@ -138,14 +138,14 @@ def blurred(results, path):
     save(figure, path)
 
 
-def optimisers(results, path):
+def optimizers(results, path):
     """IV-B3: success and time over the magnitude of the start."""
     figure, (left, right) = plt.subplots(1, 2, figsize=(9, 3.2))
     styles = [dict(color="0.0", linestyle="-", marker="o"),
               dict(color="0.4", linestyle="--", marker="s"),
               dict(color="0.6", linestyle=":", marker="D")]
-    for (name, title), style in zip(plans.OPTIMISERS, styles):
-        trials = results.optimiser(name)
+    for (name, title), style in zip(plans.OPTIMIZERS, styles):
+        trials = results.optimizer(name)
         magnitudes = sorted(trials)
         success = [100 * np.mean([t["success"] for t in trials[m]]) for m in magnitudes]
         time = [np.median([t["milliseconds"] for t in trials[m]]) for m in magnitudes]

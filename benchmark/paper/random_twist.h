@@ -8,7 +8,7 @@
 namespace mivo {
 
 /// Twist number `trial` of an experiment: its direction is uniform in all six degrees of freedom,
-/// with a metre counting as much as a radian, its norm is `magnitude`. A function of its arguments
+/// with a meter counting as much as a radian, its norm is `magnitude`. A function of its arguments
 /// alone, so that every method meets the same twists.
 Vector6 randomTwist(double magnitude, std::uint64_t seed, std::uint64_t series,
                     std::uint64_t trial);

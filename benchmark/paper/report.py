@@ -62,7 +62,7 @@ class Report:
         self.finding_section()
         self.ideal_section()
         self.convergence_section()
-        self.optimiser_section()
+        self.optimizer_section()
         self.level_section()
         self.table_2_section()
         self.static_section()
@@ -152,14 +152,14 @@ class Report:
         self.figure("convergence.png", "Fraction of starts that converge over their distance from "
                     "the truth", plots.convergence, self.results)
 
-    def optimiser_section(self):
+    def optimizer_section(self):
         self.add("## Newton against L-BFGS (IV-B3)")
-        if not self.results.experiments.has_optimisers:
+        if not self.results.experiments.has_optimizers:
             self.add("Not run: built without Ceres (`libceres-dev`).")
             return
         rows = []
-        for name, title in plans.OPTIMISERS:
-            for magnitude, trials in sorted(self.results.optimiser(name).items()):
+        for name, title in plans.OPTIMIZERS:
+            for magnitude, trials in sorted(self.results.optimizer(name).items()):
                 column = lambda field: np.array([trial[field] for trial in trials])
                 rows.append((title, "%g" % magnitude, "%.1f" % (100 * column("success").mean()),
                              number(1e3 * np.median(column("translation_m"))),
@@ -170,10 +170,10 @@ class Report:
         self.add("The same MI cost, levels, points and starts (%d per magnitude); L-BFGS of Ceres with "
                  "default settings and the tolerance of our Newton method. The tracker's gradient is that "
                  "of warping the keyframe; the gradient by differences is exact for the sampled cost." %
-                 self.plan.optimiser_trials,
+                 self.plan.optimizer_trials,
                  table(("optimizer", "start", "converged %", "median mm", "median mrad", "iterations",
                         "evaluations", "ms"), rows))
-        self.figure("optimisers.png", "Convergence and time of the optimizers", plots.optimisers,
+        self.figure("optimizers.png", "Convergence and time of the optimizers", plots.optimizers,
                     self.results)
 
     def level_section(self):

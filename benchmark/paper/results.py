@@ -22,7 +22,7 @@ def wilson(successes, trials, z=1.96):
 
 
 class Errors:
-    """Errors of the frames of one or several runs: metres and radians."""
+    """Errors of the frames of one or several runs: meters and radians."""
 
     def __init__(self, rows, lost, frames):
         self.stamp = np.array([row["stamp"] for row in rows])
@@ -87,10 +87,10 @@ class Results:
         return Basin(read_rows(self.folder.file(
             self.experiments.convergence_path(method.key, relit))))
 
-    def optimiser(self, name):
-        """Trials of one optimiser by magnitude."""
+    def optimizer(self, name):
+        """Trials of one optimizer by magnitude."""
         trials = {}
-        for row in read_rows(self.folder.file(self.experiments.optimiser_path(name))):
+        for row in read_rows(self.folder.file(self.experiments.optimizer_path(name))):
             trials.setdefault(row["magnitude"], []).append(row)
         return trials
 

@@ -27,8 +27,8 @@ cv::Mat drawDepth(const cv::Mat& depth) {
   cv::Mat picture(depth.size(), CV_8UC1);
   for (int y = 0; y < depth.rows; ++y) {
     for (int x = 0; x < depth.cols; ++x) {
-      const float metres = depth.at<float>(y, x);
-      const float nearness = metres > 0.0F ? std::max(0.0F, 1.0F - metres / kFarthest) : 0.0F;
+      const float meters = depth.at<float>(y, x);
+      const float nearness = meters > 0.0F ? std::max(0.0F, 1.0F - meters / kFarthest) : 0.0F;
       picture.at<unsigned char>(y, x) = static_cast<unsigned char>(255.0F * nearness);
     }
   }

@@ -127,6 +127,6 @@ class Bench:
 
 
 def cell(figures):
-    metres, degrees = rpe(figures)
+    meters, degrees = rpe(figures)
     lost = int(figures.get("lost", 0))
-    return f"{metres:.4f} {degrees:.3f}" + (f" ({lost} lost)" if lost else "")
+    return f"{meters:.4f} {degrees:.3f}" + (f" ({lost} lost)" if lost else "")

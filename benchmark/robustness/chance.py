@@ -17,7 +17,7 @@ SIZES = [(160, 120), (320, 240), (640, 480)]
 BINS = [4, 8, 16, 32, 64]
 METHODS = ["mi", "hybrid", "ssd"]  # the last has no bins
 SMOOTH_SIGMA = {"white": 0.0, "smooth": 3.0}  # pixels
-GREY_MEAN, GREY_DEVIATION = 128.0, 40.0
+GRAY_MEAN, GRAY_DEVIATION = 128.0, 40.0
 PAIRS, QUICK_PAIRS = 50, 5
 DEPTH_MM = 2000
 HEAD = ["noise", "size", "method", "mi_bins", "photometric_model", "pairs", "accepted"]
@@ -67,7 +67,7 @@ def write_noise(folder, kind, size, count):
     os.makedirs(folder)
     random = np.random.default_rng(1)
     cv2.imwrite(os.path.join(folder, "depth.png"), np.full(size[::-1], DEPTH_MM, np.uint16))
-    with open(os.path.join(folder, "rgb.txt"), "w", encoding="utf-8") as colour, \
+    with open(os.path.join(folder, "rgb.txt"), "w", encoding="utf-8") as color, \
             open(os.path.join(folder, "depth.txt"), "w", encoding="utf-8") as depth, \
             open(os.path.join(folder, "camera.txt"), "w", encoding="utf-8") as camera:
         focal = 525.0 * size[0] / 640.0
@@ -76,7 +76,7 @@ def write_noise(folder, kind, size, count):
         for i in range(count):
             stamp = f"{1000.0 + i / 30.0:.6f}"
             cv2.imwrite(os.path.join(folder, f"{i}.png"), noise(random, kind, size))
-            colour.write(f"{stamp} {i}.png\n")
+            color.write(f"{stamp} {i}.png\n")
             depth.write(f"{stamp} depth.png\n")
 
 
@@ -85,7 +85,7 @@ def noise(random, kind, size):
     if SMOOTH_SIGMA[kind] > 0.0:
         values = cv2.GaussianBlur(values, (0, 0), SMOOTH_SIGMA[kind])
         values /= values.std()
-    return np.clip(np.rint(GREY_MEAN + GREY_DEVIATION * values), 0, 255).astype(np.uint8)
+    return np.clip(np.rint(GRAY_MEAN + GRAY_DEVIATION * values), 0, 255).astype(np.uint8)
 
 
 def good_pairs(bench):

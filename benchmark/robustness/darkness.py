@@ -44,6 +44,6 @@ def after_darkness(bench, folder):
     frames = read_frames(bench.run("mivo", bare)["base"], bare)
     states = {frame.state for frame in frames[first + 2:first + DARK_FRAMES - 2]}
     start, later = frames[0], frames[first + DARK_FRAMES + 5]
-    metres, radians = difference(start.pose, later.pose, start.truth, later.truth)
-    return (f"{metres:.4f} {np.degrees(radians):.3f}, {'/'.join(sorted(states))}, "
+    meters, radians = difference(start.pose, later.pose, start.truth, later.truth)
+    return (f"{meters:.4f} {np.degrees(radians):.3f}, {'/'.join(sorted(states))}, "
             f"{len(far_wrong(frames))} wrong")

@@ -37,7 +37,7 @@ SEEDS = range(1, 11)
 FRAMES, QUICK_FRAMES = 120, 30
 AFTER_TEXTURE_FRAMES = 180  # until the picture is out of sight
 FAR_M, FAR_DEG = 0.05, 3.0
-HEAD = ["scene", "method", "tracking", "degraded", "lost", "initialising", "undetected gross errors",
+HEAD = ["scene", "method", "tracking", "degraded", "lost", "initializing", "undetected gross errors",
         "within 3 sigma, worst axis", "NEES / 6", "constrained: median mm deg", "constrained: 95 % mm deg"]
 TEXT = f"""
 {len(SEEDS)} seeds each, `--trajectory slide`, {SMALL[1]} x {SMALL[3]}. "At once": textured until frame 20 and from frame 80 on;
@@ -81,8 +81,8 @@ def judge(frames, scene, seed):
     far, within, seen = 0, [], []
     for frame, pose in in_world(frames)[1:]:
         error = motion(pose, frame.truth)
-        metres, radians = size(error)
-        far += frame.state == "tracking" and (metres > FAR_M or np.degrees(radians) > FAR_DEG)
+        meters, radians = size(error)
+        far += frame.state == "tracking" and (meters > FAR_M or np.degrees(radians) > FAR_DEG)
         sigma = np.sqrt(np.diag(covariance_of(frame.row)))
         within.append(np.abs(vector_of(error)) <= 3.0 * sigma)
         seen.append(size(seen_error(error, frame.truth, motions)))
@@ -93,7 +93,7 @@ def judge(frames, scene, seed):
 def summary(judged):
     """Cells of a row, over all seeds."""
     states = sum((one.states for one in judged), collections.Counter())
-    counts = [str(states[name]) for name in ("tracking", "degraded", "lost", "initialising")]
+    counts = [str(states[name]) for name in ("tracking", "degraded", "lost", "initializing")]
     within = [axes for one in judged for axes in one.within]
     if not within:
         return counts + ["0", "", "", "", ""]
@@ -101,9 +101,9 @@ def summary(judged):
     return counts + [str(sum(one.far for one in judged)),
                      f"{100.0 * np.mean(within, axis=0).min():.1f} %",
                      f"{mean([ratio for one in judged for ratio in one.nees]):.2f}",
-                     in_millimetres(seen, 0.5), in_millimetres(seen, 0.95)]
+                     in_millimeters(seen, 0.5), in_millimeters(seen, 0.95)]
 
 
-def in_millimetres(sizes, share):
+def in_millimeters(sizes, share):
     return "{:.2f} {:.3f}".format(1e3 * quantile(sizes[:, 0], share),
                                   np.degrees(quantile(sizes[:, 1], share)))

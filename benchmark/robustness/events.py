@@ -16,7 +16,7 @@ class Frames:
 
     def __init__(self, folder):
         self.folder = os.path.abspath(folder)
-        self.colour = self._list("rgb.txt")
+        self.color = self._list("rgb.txt")
         self.depth = self._list("depth.txt")
         self.truth = [row.split()[1:] for row in self._rows("groundtruth.txt")]
 
@@ -28,20 +28,20 @@ class Frames:
         return [os.path.join(self.folder, row.split()[1]) for row in self._rows(name)]
 
     def frame(self, i):
-        return self.colour[i], self.depth[i], self.truth[i]
+        return self.color[i], self.depth[i], self.truth[i]
 
     def all(self):
-        return [self.frame(i) for i in range(len(self.colour))]
+        return [self.frame(i) for i in range(len(self.color))]
 
     def shape(self):
         """Rows and columns."""
-        with Image.open(self.colour[0]) as picture:
+        with Image.open(self.color[0]) as picture:
             return picture.size[::-1]
 
 
 def compose(folder, sources, event, frames_of, gap=(0, 0.0)):
     """A sequence with the camera of the first source. The event is a list of words and numbers,
-    frames_of() gives (colour path, depth path, true pose as seven words) for each frame."""
+    frames_of() gives (color path, depth path, true pose as seven words) for each frame."""
     def make():
         os.makedirs(folder)
         shutil.copy(os.path.join(sources[0], "camera.txt"), folder)
@@ -53,12 +53,12 @@ def compose(folder, sources, event, frames_of, gap=(0, 0.0)):
 
 def write_lists(folder, frames, period=1.0 / 30.0, gap=(0, 0.0)):
     """`gap`: from which frame on stamps are by how many seconds later."""
-    with open(os.path.join(folder, "rgb.txt"), "w", encoding="utf-8") as colour, \
+    with open(os.path.join(folder, "rgb.txt"), "w", encoding="utf-8") as color, \
             open(os.path.join(folder, "depth.txt"), "w", encoding="utf-8") as depth, \
             open(os.path.join(folder, "groundtruth.txt"), "w", encoding="utf-8") as truth:
-        for i, (colour_path, depth_path, pose) in enumerate(frames):
+        for i, (color_path, depth_path, pose) in enumerate(frames):
             stamp = f"{1000.0 + i * period + (gap[1] if i >= gap[0] else 0.0):.6f}"
-            colour.write(f"{stamp} {os.path.relpath(colour_path, folder)}\n")
+            color.write(f"{stamp} {os.path.relpath(color_path, folder)}\n")
             depth.write(f"{stamp} {os.path.relpath(depth_path, folder)}\n")
             truth.write(f"{stamp} {' '.join(pose)}\n")
 
@@ -97,8 +97,8 @@ def without_depth(folder, source, first, count):
     def frames_of():
         frames = Frames(source)
         empty = write_no_depth(folder, frames.shape())
-        return [(colour, empty if first <= i < first + count else depth, pose)
-                for i, (colour, depth, pose) in enumerate(frames.all())]
+        return [(color, empty if first <= i < first + count else depth, pose)
+                for i, (color, depth, pose) in enumerate(frames.all())]
     return compose(folder, [source], ["without_depth", first, count], frames_of)
 
 
@@ -126,7 +126,7 @@ def after_gap(folder, here, there, kind, seconds):
                                      for k in range(middle)]
         return known
     return compose(folder, [here, there], ["after_gap", kind, seconds], frames_of,
-                   (len(Frames(here).colour) // 2, seconds))
+                   (len(Frames(here).color) // 2, seconds))
 
 
 def joined(folder, first_source, second_source, count):
@@ -134,8 +134,8 @@ def joined(folder, first_source, second_source, count):
     def frames_of():
         there = Frames(second_source).all()[:count]
         return Frames(first_source).all()[:count] + [
-            (colour, depth, [f"{float(pose[0]) + 100.0:.6f}"] + pose[1:])
-            for colour, depth, pose in there]
+            (color, depth, [f"{float(pose[0]) + 100.0:.6f}"] + pose[1:])
+            for color, depth, pose in there]
     return compose(folder, [first_source, second_source], ["joined", count], frames_of)
 
 

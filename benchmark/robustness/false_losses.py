@@ -14,7 +14,7 @@ HEAD = ["sequences", "runs", "frames", "lost", "false losses", "share", "undetec
         "runs with such"]
 TEXT = f"""
 A loss is false when the frames before and after it are measured, their poses differ by less than
-{judging.ORDINARY_STEPS:.0f} times the median step (of up to {judging.NEIGHBOURS} neighbors on each side) per frame in between, and the lost image has
+{judging.ORDINARY_STEPS:.0f} times the median step (of up to {judging.NEIGHBORS} neighbors on each side) per frame in between, and the lost image has
 a mean of at least {judging.LIT_MEAN:.0f} gray levels and a deviation of at least {judging.LIT_DEVIATION:.0f}. Recordings are run from each of {len(STARTS)}
 starting frames. An empty cell means that there is no ground truth."""
 
@@ -54,7 +54,7 @@ def recorded(bench, name, folder):
 def row_of(bench, name, runs):
     frames = sum(len(run) for run, _ in runs)
     lost = sum(frame.state == "lost" for run, _ in runs for frame in run)
-    false = sum(len(judging.false_losses(run, judging.colour_by_stamp(folder)))
+    false = sum(len(judging.false_losses(run, judging.color_by_stamp(folder)))
                 for run, folder in runs)
     return [name, len(runs), frames, lost, false, share(false, frames)] + wrong(bench, runs)
 

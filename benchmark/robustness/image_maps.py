@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSD-3-Clause
 """What else than intensities could be compared, as maps of images that are made beforehand.
 
-A map takes a grey image and the first one of its sequence, and gives a grey image: 8 bits each.
+A map takes a gray image and the first one of its sequence, and gives a gray image: 8 bits each.
 """
 
 import os
@@ -15,42 +15,42 @@ from measuring.sequences import make_once
 
 LOCAL_SIGMA = 5.0  # pixels; as wide as the window below
 WINDOW = (17, 17)  # pixels
-CONTRAST_SHARE = 0.1  # constant of normalisation as a share of the frame's own contrast
-MIDDLE, GREY_LEVELS = 128.0, 55.0  # of a normalised image, as the tracker scales its own
-GRADIENT_GAIN = 4.0  # grey levels per grey level per pixel: weak gradients survive the rounding
+CONTRAST_SHARE = 0.1  # constant of normalization as a share of the frame's own contrast
+MIDDLE, GRAY_LEVELS = 128.0, 55.0  # of a normalized image, as the tracker scales its own
+GRADIENT_GAIN = 4.0  # gray levels per gray level per pixel: weak gradients survive the rounding
 RANK_SIGMA = 1.0  # pixels
-RANK_STEP = 28.0  # grey levels per neighbour
-DARKER = 1e-3  # grey levels; the rounding of the blur is no difference
+RANK_STEP = 28.0  # gray levels per neighbor
+DARKER = 1e-3  # gray levels; the rounding of the blur is no difference
 
 
-def equalised(grey, _):
+def equalized(gray, _):
     """As many pixels of each intensity. What a lamp does to all pixels alike, in whatever curve,
     drops out."""
-    return cv2.equalizeHist(grey)
+    return cv2.equalizeHist(gray)
 
 
-def gain_and_bias(grey, first):
+def gain_and_bias(gray, first):
     """The mean and the deviation of the first frame. An exposure drops out."""
-    gain = first.std() / max(grey.std(), 1e-6)
-    return to_bytes((grey - grey.mean()) * gain + first.mean())
+    gain = first.std() / max(gray.std(), 1e-6)
+    return to_bytes((gray - gray.mean()) * gain + first.mean())
 
 
-def local_mean_removed(grey, _):
+def local_mean_removed(gray, _):
     """Difference to the surroundings. An offset that varies slowly drops out, a gain does not."""
-    values = grey.astype(np.float64)
+    values = gray.astype(np.float64)
     return to_bytes(values - cv2.GaussianBlur(values, (0, 0), LOCAL_SIGMA) + MIDDLE)
 
 
-def gradient_magnitude(grey, _):
-    values = grey.astype(np.float64)
+def gradient_magnitude(gray, _):
+    values = gray.astype(np.float64)
     along = [cv2.Sobel(values, cv2.CV_64F, *order, scale=1.0 / 8.0) for order in ((1, 0), (0, 1))]
     return to_bytes(GRADIENT_GAIN * np.hypot(*along))
 
 
-def rank(grey, _):
-    """Number of the eight neighbours that are darker. Every curve that keeps the order of
-    neighbours drops out, and with it how large their differences are."""
-    smooth = cv2.GaussianBlur(grey.astype(np.float64), (0, 0), RANK_SIGMA)
+def rank(gray, _):
+    """Number of the eight neighbors that are darker. Every curve that keeps the order of
+    neighbors drops out, and with it how large their differences are."""
+    smooth = cv2.GaussianBlur(gray.astype(np.float64), (0, 0), RANK_SIGMA)
     rows, columns = smooth.shape
     padded = np.pad(smooth, 1, "edge")
     darker = np.zeros_like(smooth)
@@ -60,14 +60,14 @@ def rank(grey, _):
     return to_bytes(cv2.GaussianBlur(RANK_STEP * darker, (0, 0), RANK_SIGMA))
 
 
-def locally_normalised(grey, _):
+def locally_normalized(gray, _):
     """(I - mean) / (deviation + constant) of the window around each pixel. A gain and an offset
     that vary slowly drop out."""
-    values = grey.astype(np.float64)
+    values = gray.astype(np.float64)
     mean = cv2.blur(values, WINDOW)
     variance = np.maximum(cv2.blur(values * values, WINDOW) - mean * mean, 0.0)
     constant = max(CONTRAST_SHARE * np.sqrt(variance.mean()), 1e-6)
-    return to_bytes((values - mean) / (np.sqrt(variance) + constant) * GREY_LEVELS + MIDDLE)
+    return to_bytes((values - mean) / (np.sqrt(variance) + constant) * GRAY_LEVELS + MIDDLE)
 
 
 def to_bytes(values):
@@ -75,7 +75,7 @@ def to_bytes(values):
 
 
 def mapped(folder, source, image_map):
-    """A sequence whose colour images are mapped; its depth is a link to the source's."""
+    """A sequence whose color images are mapped; its depth is a link to the source's."""
     def make():
         os.makedirs(os.path.join(folder, "rgb"))
         for name in keys.LISTS:
@@ -91,15 +91,15 @@ def mapped(folder, source, image_map):
 
 def map_images(folder, source, image_map):
     first = None
-    for path in colour_paths(source):
-        # The tracker makes its grey images in the same way.
-        grey = cv2.cvtColor(cv2.imread(os.path.join(source, path)), cv2.COLOR_BGR2GRAY)
-        first = grey if first is None else first
-        cv2.imwrite(os.path.join(folder, path), image_map(grey, first),
+    for path in color_paths(source):
+        # The tracker makes its gray images in the same way.
+        gray = cv2.cvtColor(cv2.imread(os.path.join(source, path)), cv2.COLOR_BGR2GRAY)
+        first = gray if first is None else first
+        cv2.imwrite(os.path.join(folder, path), image_map(gray, first),
                     [cv2.IMWRITE_PNG_COMPRESSION, 1])
 
 
-def colour_paths(folder):
+def color_paths(folder):
     """As the list of the sequence has them, relative to it."""
     with open(os.path.join(folder, "rgb.txt"), encoding="utf-8") as file:
         return [line.split()[1] for line in file if line.strip() and not line.startswith("#")]

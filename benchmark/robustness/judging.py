@@ -9,7 +9,7 @@ from PIL import Image
 from measuring.statistics import quantile
 from measuring.tracks import measured, motion
 from measuring.trajectories import (
-    adjoint, covariance_of, difference, normalised_error, size, vector_of)
+    adjoint, covariance_of, difference, normalized_error, size, vector_of)
 
 # A pose against its keyframe.
 FAR_WRONG_M, FAR_WRONG_DEG = 0.10, 5.0
@@ -18,9 +18,9 @@ WRONG_M, WRONG_DEG, WRONG_SHARE, WRONG_SIGMA = 0.003, 0.1, 0.02, 5.0
 # The truth of a recording errs, too: there a motion must stand out of the run's own errors.
 STANDS_OUT = 5.0
 # Ordinary motion between two frames, in median steps of the neighboring frames.
-ORDINARY_STEPS, NEIGHBOURS = 3.0, 10
+ORDINARY_STEPS, NEIGHBORS = 3.0, 10
 LEAST_STEP_M, LEAST_STEP_DEG = 0.001, 0.05
-LIT_MEAN, LIT_DEVIATION = 30.0, 10.0  # grey levels
+LIT_MEAN, LIT_DEVIATION = 30.0, 10.0  # gray levels
 
 WRONG_TEXT = f"""
 "Undetected errors": frames with state tracking whose motion since the previous measured frame of the segment is wrong
@@ -35,8 +35,8 @@ def far_wrong(frames):
     for frame in frames:
         keyframe = keyframe_of.get(int(frame.row["keyframe"]))
         if frame.state == "tracking" and keyframe and has_both(frame) and has_both(keyframe):
-            metres, radians = difference(keyframe.pose, frame.pose, keyframe.truth, frame.truth)
-            if metres > FAR_WRONG_M or np.degrees(radians) > FAR_WRONG_DEG:
+            meters, radians = difference(keyframe.pose, frame.pose, keyframe.truth, frame.truth)
+            if meters > FAR_WRONG_M or np.degrees(radians) > FAR_WRONG_DEG:
                 wrong.append(frame)
         if frame.row["new_keyframe"] == 1.0:
             made += 1
@@ -89,9 +89,9 @@ def is_wrong(before, now, error, usual):
     return False
 
 
-def false_losses(frames, colour_of):
+def false_losses(frames, color_of):
     """Frames reported as lost between two measured ones whose poses differ by an ordinary motion,
-    and whose image is not dark. colour_of(stamp) is the path of the colour image."""
+    and whose image is not dark. color_of(stamp) is the path of the color image."""
     good = [i for i, frame in enumerate(frames)
             if frame.state in ("tracking", "degraded") and frame.pose is not None]
     steps = {a: size(motion(frames[a].pose, frames[b].pose))
@@ -102,13 +102,13 @@ def false_losses(frames, colour_of):
         if not between or frames[a].segment != frames[b].segment:
             continue
         if is_ordinary(size(motion(frames[a].pose, frames[b].pose)), b - a, usual_step(steps, a, b)):
-            lost += [frame for frame in between if shows_something(colour_of(frame.stamp))]
+            lost += [frame for frame in between if shows_something(color_of(frame.stamp))]
     return lost
 
 
 def usual_step(steps, first, last):
     """Median length (m) and angle (rad) of the measured steps on both sides of a gap."""
-    near = [steps[i] for i in range(first - NEIGHBOURS, last + NEIGHBOURS) if i in steps]
+    near = [steps[i] for i in range(first - NEIGHBORS, last + NEIGHBORS) if i in steps]
     if not near:
         return None
     return tuple(quantile([step[k] for step in near], 0.5) for k in range(2))
@@ -123,12 +123,12 @@ def is_ordinary(moved, frames, usual):
 
 
 def shows_something(path):
-    grey = np.asarray(Image.open(path).convert("L"), np.float64)
-    return grey.mean() >= LIT_MEAN and grey.std() >= LIT_DEVIATION
+    gray = np.asarray(Image.open(path).convert("L"), np.float64)
+    return gray.mean() >= LIT_MEAN and gray.std() >= LIT_DEVIATION
 
 
-def colour_by_stamp(folder):
-    """A function from a stamp to the path of the colour image."""
+def color_by_stamp(folder):
+    """A function from a stamp to the path of the color image."""
     with open(os.path.join(folder, "rgb.txt"), encoding="utf-8") as file:
         rows = [line.split() for line in file if line.strip() and not line.startswith("#")]
     paths = {round(float(row[0]), 6): os.path.join(folder, row[1]) for row in rows}
@@ -146,5 +146,5 @@ def in_world(frames):
 
 def nees(frames):
     """Squared error of each pose but the first over its claimed covariance, by the six numbers."""
-    return [normalised_error(pose, frame.truth, covariance_of(frame.row)) / 6.0
+    return [normalized_error(pose, frame.truth, covariance_of(frame.row)) / 6.0
             for frame, pose in in_world(frames)[1:]]

@@ -46,12 +46,12 @@ def judge_light(bench, default, peers):
     if not default:
         return
     ratios, generated = [], []
-    for (name, lamps), (kind, (metres, degrees)) in default.items():
+    for (name, lamps), (kind, (meters, degrees)) in default.items():
         if lamps != "constant":
             base = default[name, "constant"][1]
-            ratios.append((metres / base[0], degrees / base[1], f"{name} {lamps}"))
+            ratios.append((meters / base[0], degrees / base[1], f"{name} {lamps}"))
         if kind == "generated":
-            generated.append((metres, degrees, f"{name} {lamps}"))
+            generated.append((meters, degrees, f"{name} {lamps}"))
     worst = max(ratios, key=lambda row: row[0])
     bench.say(f"\nchanging light against constant light: worst RPE ratio {worst[0]:.2f} ({worst[2]}), "
               f"{sum(row[0] > 1.10 for row in ratios)} of {len(ratios)} above 1.10; rotation worst "

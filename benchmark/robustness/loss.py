@@ -44,7 +44,7 @@ def recovery(frames, first):
     for number, frame in enumerate(frames[first:], 1):
         if not measured([frame]):
             continue
-        metres, radians = difference(start.pose, frame.pose, start.truth, frame.truth)
-        if metres < 0.02 and np.degrees(radians) < 1.0:
+        meters, radians = difference(start.pose, frame.pose, start.truth, frame.truth)
+        if meters < 0.02 and np.degrees(radians) < 1.0:
             return str(number)
     return "never"

@@ -15,12 +15,12 @@ AS_THEY_ARE = {"photometric_model": "none"}
 # the default.
 MODELS = [
     ("intensities as they are", None, AS_THEY_ARE),
-    ("histogram equalized", image_maps.equalised, AS_THEY_ARE),
+    ("histogram equalized", image_maps.equalized, AS_THEY_ARE),
     ("gain and bias of the frame", image_maps.gain_and_bias, AS_THEY_ARE),
     ("local mean removed", image_maps.local_mean_removed, AS_THEY_ARE),
     ("gradient magnitude", image_maps.gradient_magnitude, AS_THEY_ARE),
     ("rank among neighbors", image_maps.rank, AS_THEY_ARE),
-    ("locally normalized image", image_maps.locally_normalised, AS_THEY_ARE),
+    ("locally normalized image", image_maps.locally_normalized, AS_THEY_ARE),
     ("lcn, the default", None, {}),
     ("intensities, mi on all levels", None, {"method": "mi", **AS_THEY_ARE}),
     ("lcn, mi on all levels", None, {"method": "mi"}),
@@ -36,7 +36,7 @@ TITLE = {"filmed": "synthetic", "recordings": "recordings"}
 HEAD = ["what is compared", "constant light", "changing light", "worst sequence", "lost frames"]
 
 # What a run gave, and of which sequence.
-Run = collections.namedtuple("Run", "kind model sequence light metres degrees lost")
+Run = collections.namedtuple("Run", "kind model sequence light meters degrees lost")
 
 
 def tables(bench):
@@ -94,14 +94,14 @@ def rows_of(runs):
 
 def summary(runs):
     """Geometric means under constant and under changing light, the worst, all that were lost."""
-    worst = max(runs, key=lambda one: one.metres)
+    worst = max(runs, key=lambda one: one.meters)
     return [middle([one for one in runs if one.light == "constant"]),
             middle([one for one in runs if one.light != "constant"]),
-            f"{worst.metres:.4f} {worst.degrees:.3f} {worst.sequence} {worst.light}",
+            f"{worst.meters:.4f} {worst.degrees:.3f} {worst.sequence} {worst.light}",
             str(sum(one.lost for one in runs))]
 
 
 def middle(runs):
     """Geometric means: one sequence that is lost does not hide the others."""
-    return "{:.4f} {:.3f}".format(geometric_mean([one.metres for one in runs]),
+    return "{:.4f} {:.3f}".format(geometric_mean([one.meters for one in runs]),
                                   geometric_mean([one.degrees for one in runs]))

@@ -4,7 +4,7 @@
 import collections
 
 from bench import SMALL
-from judging import WRONG_M, false_losses, colour_by_stamp, motion_error, motion_pairs, wrong_motions
+from judging import WRONG_M, false_losses, color_by_stamp, motion_error, motion_pairs, wrong_motions
 from measuring.progress import Progress
 from measuring.trajectories import size
 
@@ -59,5 +59,5 @@ def count(frames, folder):
              if now.state == "degraded" and size(motion_error(before, now))[0] < WRONG_M]
     return {"frames": len(frames), "wrong and called tracking": len(wrong_motions(frames)),
             "lost": states["lost"],
-            "false losses": len(false_losses(frames, colour_by_stamp(folder))),
+            "false losses": len(false_losses(frames, color_by_stamp(folder))),
             "degraded": states["degraded"], "degraded though correct": len(right)}

@@ -45,8 +45,8 @@ kernels::WarpParameters smallMotion() {
 
 KernelInputs::KernelInputs(std::size_t n) : size(n), warp(smallMotion()) {
   Numbers numbers;
-  grey.resize(static_cast<std::size_t>(kWidth * kHeight) + 64);
-  for (unsigned char& pixel : grey) pixel = static_cast<unsigned char>(numbers.between(20, 235));
+  gray.resize(static_cast<std::size_t>(kWidth * kHeight) + 64);
+  for (unsigned char& pixel : gray) pixel = static_cast<unsigned char>(numbers.between(20, 235));
   numbers.fill(static_cast<std::size_t>(kPairsStride * (kHeight / 4 + 2)), 5.0F, 60.0F, pairs);
   depth.resize(static_cast<std::size_t>(kWidth * kHeight));
   for (std::uint16_t& step : depth) step = static_cast<std::uint16_t>(numbers.between(900, 3000));

@@ -14,7 +14,7 @@ namespace mivo {
 struct KernelInputs {
   explicit KernelInputs(std::size_t n);
 
-  kernels::ImageView image() const { return {nullptr, grey.data(), kWidth, kWidth, kHeight}; }
+  kernels::ImageView image() const { return {nullptr, gray.data(), kWidth, kWidth, kHeight}; }
   kernels::ContrastView contrast() const { return {pairs.data(), kPairsStride, 6.0F}; }
   kernels::PointsView points() const { return {x.data(), y.data(), z.data()}; }
   kernels::BinsView referenceBins() const { return {reference_bin.data(), fraction.data()}; }
@@ -29,9 +29,9 @@ struct KernelInputs {
 
   std::size_t size;
   kernels::WarpParameters warp{};
-  std::vector<unsigned char> grey;
+  std::vector<unsigned char> gray;
   std::vector<float> pairs;
-  std::vector<std::uint16_t> depth;  // millimetres
+  std::vector<std::uint16_t> depth;  // millimeters
   std::vector<float> x, y, z;
   std::vector<float> u, v, visible, value, intensity, local_contrast, residual, ones;
   std::vector<float> nx, ny, nz, weight;

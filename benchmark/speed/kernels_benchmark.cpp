@@ -40,9 +40,9 @@ void addWarps(KernelInputs& in, const mivo::kernels::Backend& backend) {
     k.sampleIntensity(in.image(), in.u.data(), in.v.data(), in.visible.data(), in.size,
                       in.value.data());
   });
-  add("warp_and_normalised_interpolation", backend, in.size, [&in](const Kernels& k) {
+  add("warp_and_normalized_interpolation", backend, in.size, [&in](const Kernels& k) {
     k.warpPoints(in.warp, in.points(), in.size, in.u.data(), in.v.data(), in.visible.data());
-    k.sampleNormalised(in.image(), in.contrast(), std::numeric_limits<float>::infinity(),
+    k.sampleNormalized(in.image(), in.contrast(), std::numeric_limits<float>::infinity(),
                        in.u.data(), in.v.data(), in.visible.data(), in.size, in.value.data());
   });
 }

@@ -12,7 +12,7 @@ GOALS = (
     ("OpenCV's RgbdOdometry / the paper's hybrid", "rgbd", "hybrid", 25.0, True),
     ("MI / hybrid", "mi", "hybrid", 3.0, False),
     ("hybrid / SSD", "hybrid", "ssd", 1.5, False))
-KERNEL_GOALS = {"warp_and_interpolation": 5.0, "warp_and_normalised_interpolation": 5.0,
+KERNEL_GOALS = {"warp_and_interpolation": 5.0, "warp_and_normalized_interpolation": 5.0,
                 "accumulation": 5.0, "mi_gradient_and_hessian": 5.0, "histogram": 3.0}
 
 

@@ -22,7 +22,7 @@ constexpr double kMaxEquidistantRadius = 5.67;
 // Of that scan. Between two of its radii the polynomial of a usable lens changes by a percent.
 constexpr double kRadiusStep = 1.0 / 64.0;
 // How far outside of the corners the polynomial is still trusted: points that the motion between
-// two steps of the minimiser takes there and back.
+// two steps of the minimizer takes there and back.
 constexpr double kCornerMargin = 1.1;
 // stretch > this: the least factor by which the lens may shrink lengths. It is 0 where the
 // polynomial folds; from 0.2 on Newton's method in floats finds every ray to a thousandth of a
@@ -30,7 +30,7 @@ constexpr double kCornerMargin = 1.1;
 constexpr double kMinStretch = 0.2;
 // The kernels take six steps (point_formulas-inl.h): four must do without tangential distortion.
 constexpr int kQuickSteps = 4;
-// |radius found - radius| < this, normalised: two more steps leave nothing of it.
+// |radius found - radius| < this, normalized: two more steps leave nothing of it.
 constexpr double kQuickTolerance = 1e-4;
 // A lens that folds within this share of the way to the corners is no lens but an error.
 constexpr double kInnerHalf = 0.5;
@@ -44,7 +44,7 @@ struct Radial {
   double slope;
 };
 
-/// At the squared normalised radius r2.
+/// At the squared normalized radius r2.
 Radial polynomialAt(const Distortion& d, double r2) {
   const double over = 1.0 + r2 * (d.k1 + r2 * (d.k2 + r2 * d.k3));
   if (!d.isRational()) {
@@ -64,7 +64,7 @@ Radial equidistantAt(const Distortion& d, double a) {
           1.0 + a2 * (3.0 * d.k1 + a2 * (5.0 * d.k2 + a2 * (7.0 * d.k3 + a2 * 9.0 * d.k4)))};
 }
 
-/// At the squared normalised radius r2.
+/// At the squared normalized radius r2.
 Radial radialAt(const Distortion& d, double r2) {
   if (d.model == LensModel::kPolynomial) return polynomialAt(d, r2);
   if (r2 == 0.0) return {1.0, 1.0};
@@ -127,7 +127,7 @@ class LensProfile {
   double tangential_;
 };
 
-/// Normalised distance of the corner that is the furthest from the principal point.
+/// Normalized distance of the corner that is the furthest from the principal point.
 double cornerRadius(const Camera& c) {
   return std::hypot(std::max(c.cx, c.width - 1.0 - c.cx) / c.fx,
                     std::max(c.cy, c.height - 1.0 - c.cy) / c.fy);
@@ -143,7 +143,7 @@ void refuseFoldingLens(const Camera& camera) {
   if (d.k4 != 0.0 || d.isRational()) {
     text << ", k4 " << d.k4 << ", k5 " << d.k5 << ", k6 " << d.k6;
   }
-  text << " folds back: no pixel has one ray beyond the normalised radius " << range.undistorted
+  text << " folds back: no pixel has one ray beyond the normalized radius " << range.undistorted
        << ", " << std::lround(range.distorted * std::min(camera.fx, camera.fy))
        << " pixels from the principal point, in the inner half of the image: calibrate again, and "
           "check order and model ("

@@ -12,21 +12,21 @@ constexpr double kDegreesPerRadian = 180.0 / M_PI;
 // degrees; no RGB-D camera sees less, or more: the longer side of the image, as a pinhole's.
 constexpr double kLeastAngle = 10.0;
 constexpr double kLargestAngle = 170.0;
-// distance > this share of the image's side: a principal point this far from the centre is that of
+// distance > this share of the image's side: a principal point this far from the center is that of
 // a cropped image, or of one of another size. Half the size puts it at a quarter.
-constexpr double kFarFromCentre = 0.2;
+constexpr double kFarFromCenter = 0.2;
 // |ratio of the two - 1| < this: principal points of the same relative place in x and y.
 constexpr double kSameScale = 0.1;
 // Focal lengths of one lens differ by a few percent at most.
 constexpr double kLargestAspect = 1.5;
 constexpr double kRounding = 1e-3;  // pixels
 
-/// How many times larger the images are whose centre is the principal point.
+/// How many times larger the images are whose center is the principal point.
 double scaleOf(double principal_point, int size) {
   return (2.0 * principal_point + 1.0) / size;
 }
 
-/// "is it for images of 320 x 240 pixels?" when the principal point would be their centre.
+/// "is it for images of 320 x 240 pixels?" when the principal point would be their center.
 std::string otherSize(const Camera& c) {
   const double x = scaleOf(c.cx, c.width);
   const double y = scaleOf(c.cy, c.height);
@@ -63,9 +63,9 @@ std::string findCameraFault(const Camera& c) {
 
 std::string doubtOf(const Camera& c) {
   std::ostringstream text;
-  if (std::abs(c.cx - 0.5 * (c.width - 1)) > kFarFromCentre * c.width ||
-      std::abs(c.cy - 0.5 * (c.height - 1)) > kFarFromCentre * c.height) {
-    text << "the principal point (" << c.cx << ", " << c.cy << ") is far from the centre of images "
+  if (std::abs(c.cx - 0.5 * (c.width - 1)) > kFarFromCenter * c.width ||
+      std::abs(c.cy - 0.5 * (c.height - 1)) > kFarFromCenter * c.height) {
+    text << "the principal point (" << c.cx << ", " << c.cy << ") is far from the center of images "
          << "of " << c.width << " x " << c.height << " pixels" << otherSize(c);
     return text.str();
   }

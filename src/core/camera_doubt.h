@@ -12,7 +12,7 @@ namespace mivo {
 std::string findCameraFault(const Camera& camera);
 
 /// What is hard to believe, as one line for the user, or an empty text: a principal point far from
-/// the centre, as when the calibration is for images of another size, or focal lengths that differ.
+/// the center, as when the calibration is for images of another size, or focal lengths that differ.
 std::string doubtOf(const Camera& camera);
 
 /// Whether two cameras differ by no more than the rounding of numbers on their way: by less than a

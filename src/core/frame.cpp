@@ -24,9 +24,9 @@ cv::Mat highBits(const cv::Mat& image, int bits) {
 
 }  // namespace
 
-cv::Mat toGrey(const cv::Mat& image, ChannelOrder order, int bits) {
+cv::Mat toGray(const cv::Mat& image, ChannelOrder order, int bits) {
   const bool rgb = order == ChannelOrder::kRgb;
-  cv::Mat grey;
+  cv::Mat gray;
   switch (image.type()) {
     case CV_8UC1:
       return image;
@@ -34,13 +34,13 @@ cv::Mat toGrey(const cv::Mat& image, ChannelOrder order, int bits) {
       return highBits(image, bits);
     case CV_16UC3:
     case CV_16UC4:
-      return toGrey(highBits(image, bits), order);
+      return toGray(highBits(image, bits), order);
     case CV_8UC3:
-      cv::cvtColor(image, grey, rgb ? cv::COLOR_RGB2GRAY : cv::COLOR_BGR2GRAY);
-      return grey;
+      cv::cvtColor(image, gray, rgb ? cv::COLOR_RGB2GRAY : cv::COLOR_BGR2GRAY);
+      return gray;
     case CV_8UC4:
-      cv::cvtColor(image, grey, rgb ? cv::COLOR_RGBA2GRAY : cv::COLOR_BGRA2GRAY);
-      return grey;
+      cv::cvtColor(image, gray, rgb ? cv::COLOR_RGBA2GRAY : cv::COLOR_BGRA2GRAY);
+      return gray;
     default:
       throw Error("image of OpenCV type " + std::to_string(image.type()) +
                   ": expected 8 or 16 bits with 1, 3 or 4 channels");
@@ -51,7 +51,7 @@ std::string findFault(const Frame& frame, const Camera& camera) {
   const std::string expected = sizeText(camera.width, camera.height);
   if (!std::isfinite(frame.stamp)) return "the stamp is not finite";
   if (frame.image.type() != CV_8UC1 || frame.image.empty()) {
-    return "the image is not 8-bit grey";
+    return "the image is not 8-bit gray";
   }
   if (frame.image.cols != camera.width || frame.image.rows != camera.height) {
     return "the image has " + sizeText(frame.image.cols, frame.image.rows) +
@@ -63,7 +63,7 @@ std::string findFault(const Frame& frame, const Camera& camera) {
   }
   if (frame.depth.cols != camera.width || frame.depth.rows != camera.height) {
     return "the depth has " + sizeText(frame.depth.cols, frame.depth.rows) +
-           " pixels, but the image " + expected + ": register it to the colour camera";
+           " pixels, but the image " + expected + ": register it to the color camera";
   }
   if (frame.depth.type() == CV_16UC1 && !(frame.depth_unit > 0.0 && frame.depth_unit <= 1.0)) {
     return "the unit of the depth is not between 0 and 1 m";

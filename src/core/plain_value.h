@@ -12,7 +12,7 @@
 namespace mivo {
 
 /// A switch as YAML has it: true and false, yes and no, on and off, 1 and 0, in small, capital or
-/// capitalised letters.
+/// capitalized letters.
 inline std::optional<bool> parseSwitch(const std::string& text) {
   constexpr std::array<const char*, 4> kWords[] = {{"false", "no", "off", "0"},
                                                    {"true", "yes", "on", "1"}};

@@ -32,7 +32,7 @@ Eigen::Matrix3d skew(const Eigen::Vector3d& v) {
 Eigen::Matrix3d expSo3(const Eigen::Vector3d& w) {
   const double angle = w.norm();
   if (angle < kSmallAngle) {
-    // Quaternion series: unit up to the fourth power of the angle, then normalised.
+    // Quaternion series: unit up to the fourth power of the angle, then normalized.
     const double square = angle * angle;
     Eigen::Quaterniond q;
     q.w() = 1.0 - square / 8.0;
@@ -80,7 +80,7 @@ Vector6 logSe3(const Eigen::Isometry3d& T) {
   return twist;
 }
 
-Eigen::Isometry3d orthonormalised(const Eigen::Isometry3d& T) {
+Eigen::Isometry3d orthonormalized(const Eigen::Isometry3d& T) {
   Eigen::Isometry3d result = T;
   result.linear() = Eigen::Quaterniond(T.linear()).normalized().toRotationMatrix();
   return result;

@@ -5,8 +5,8 @@ namespace mivo {
 
 const char* toString(TrackingState state) {
   switch (state) {
-    case TrackingState::kInitialising:
-      return "initialising";
+    case TrackingState::kInitializing:
+      return "initializing";
     case TrackingState::kTracking:
       return "tracking";
     case TrackingState::kDegraded:

@@ -13,8 +13,8 @@ Eigen::Isometry3d rigidAlignment(const Eigen::Matrix3Xd& from, const Eigen::Matr
 }
 
 double similarityScale(const Eigen::Matrix3Xd& from, const Eigen::Matrix3Xd& to) {
-  const Eigen::Matrix3Xd centred = from.colwise() - from.rowwise().mean();
-  if (!(centred.squaredNorm() > 0.0)) return 1.0;
+  const Eigen::Matrix3Xd centered = from.colwise() - from.rowwise().mean();
+  if (!(centered.squaredNorm() > 0.0)) return 1.0;
   const Eigen::Matrix4d T = Eigen::umeyama(from, to, true);
   return std::cbrt(T.topLeftCorner<3, 3>().determinant());
 }

@@ -34,7 +34,7 @@ std::vector<RelativePoseError> relativePoseErrors(const Trajectory& truth,
 /// "evo_rpe --delta 1 --delta_unit f".
 std::vector<RelativePoseError> stepErrors(const MatchedPoses& poses);
 
-/// The same between poses `delta` metres of the true path apart, one pair after the other: "evo_rpe
+/// The same between poses `delta` meters of the true path apart, one pair after the other: "evo_rpe
 /// --delta DELTA --delta_unit m --pairs_from_reference". The first pair begins where the path first
 /// is that long.
 std::vector<RelativePoseError> pathErrors(const MatchedPoses& poses, double delta);

@@ -90,7 +90,7 @@ Evaluation evaluate(const Trajectory& truth, const Trajectory& estimate,
   evaluation.absolute = absoluteTrajectoryError(poses);
   evaluation.scaled = absoluteTrajectoryError(poses, AlignmentScale::kFree);
   evaluation.steps = stepErrors(poses);
-  evaluation.path_drift = pathErrors(poses, options.delta_metres);
+  evaluation.path_drift = pathErrors(poses, options.delta_meters);
   const double true_duration = duration(truth);
   if (!(true_duration > 0.0)) throw Error("the true trajectory has no duration");
   evaluation.coverage = duration(estimate) / true_duration;
@@ -118,12 +118,12 @@ std::vector<Figure> figuresOf(const Evaluation& evaluation) {
   figures.push_back({"rpe_frame_translation_rmse_m", translations(evaluation.steps).rmse});
   figures.push_back({"rpe_frame_rotation_rmse_deg", rotationsInDegrees(evaluation.steps).rmse});
   if (!evaluation.path_drift.empty()) {
-    const double metres = evaluation.options.delta_metres;
+    const double meters = evaluation.options.delta_meters;
     addDrift("rpe_path", evaluation.path_drift, figures);
     figures.push_back({"rpe_path_translation_percent",
-                       100.0 * translations(evaluation.path_drift).mean / metres});
+                       100.0 * translations(evaluation.path_drift).mean / meters});
     figures.push_back(
-        {"rpe_path_rotation_deg_per_m", rotationsInDegrees(evaluation.path_drift).mean / metres});
+        {"rpe_path_rotation_deg_per_m", rotationsInDegrees(evaluation.path_drift).mean / meters});
   }
   figures.insert(
       figures.end(),

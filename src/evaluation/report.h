@@ -13,7 +13,7 @@ namespace mivo {
 
 struct EvaluationOptions {
   double delta = 1.0;                 ///< s, over which drift is measured
-  double delta_metres = 1.0;          ///< m of the true path, over which it is measured, too
+  double delta_meters = 1.0;          ///< m of the true path, over which it is measured, too
   double max_time_difference = 0.02;  ///< s, between a pose and the true one it is compared with
 };
 
@@ -24,7 +24,7 @@ struct Evaluation {
   double coverage = 0.0;                      ///< duration of the estimate / duration of the truth
   std::vector<RelativePoseError> drift;       ///< over options.delta; may be empty, see notice
   std::vector<RelativePoseError> steps;       ///< from each matched pose to the next
-  std::vector<RelativePoseError> path_drift;  ///< over options.delta_metres; none on shorter paths
+  std::vector<RelativePoseError> path_drift;  ///< over options.delta_meters; none on shorter paths
   AbsoluteTrajectoryError absolute;
   AbsoluteTrajectoryError scaled;  ///< the scale of the estimate being free
   std::string notice;              ///< what could not be measured, and why; or empty

@@ -16,7 +16,7 @@ struct Statistics {
 /// All zero for an empty list.
 Statistics statisticsOf(const std::vector<double>& errors);
 
-/// The value below which a fraction `q` (0..1) of the values lies, interpolated between neighbours;
+/// The value below which a fraction `q` (0..1) of the values lies, interpolated between neighbors;
 /// 0 for an empty list.
 double quantile(std::vector<double> values, double q);
 

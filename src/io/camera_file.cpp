@@ -12,7 +12,7 @@ namespace mivo {
 namespace {
 
 const char* const kFormat =
-    "width height fx fy cx cy depth_units_per_metre [k1 k2 p1 p2 k3 [k4 k5 k6] | equidistant k1 k2 "
+    "width height fx fy cx cy depth_units_per_meter [k1 k2 p1 p2 k3 [k4 k5 k6] | equidistant k1 k2 "
     "k3 k4]";
 constexpr std::size_t kPinholeFields = 7;
 constexpr std::size_t kDistortedFields = 12;
@@ -70,7 +70,7 @@ SequenceCamera readCamera(const std::string& path) {
   camera.fy = table.number(3);
   camera.cx = table.number(4);
   camera.cy = table.number(5);
-  result.depth_units_per_metre = table.number(6);
+  result.depth_units_per_meter = table.number(6);
   if (table.size() > kPinholeFields) camera.distortion = lens(table);
   if (camera.fy < 0.0) {
     table.refuse(fmt::format(
@@ -78,7 +78,7 @@ SequenceCamera readCamera(const std::string& path) {
         "that lie as all do. Write {:g}; in the true poses ty, qx and qz change their signs then",
         camera.fy, -camera.fy));
   }
-  if (!(result.depth_units_per_metre > 0.0)) table.refuse("depth_units_per_metre is not positive");
+  if (!(result.depth_units_per_meter > 0.0)) table.refuse("depth_units_per_meter is not positive");
   try {
     camera.validate();
   } catch (const Error& error) {
@@ -92,7 +92,7 @@ void writeCamera(const std::string& path, const SequenceCamera& camera, Overwrit
   const Camera& c = camera.camera;
   const std::string text =
       fmt::format("# {}\n{} {} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g}", kFormat, c.width, c.height,
-                  c.fx, c.fy, c.cx, c.cy, camera.depth_units_per_metre);
+                  c.fx, c.fy, c.cx, c.cy, camera.depth_units_per_meter);
   OutputFile(path, overwrite).write(text + lensText(c.distortion) + "\n");
 }
 
@@ -101,20 +101,20 @@ std::optional<SequenceCamera> tumCamera(const std::string& folder_name) {
   // images of freiburg3 have been undistorted by the publishers.
   constexpr int kWidth = 640;
   constexpr int kHeight = 480;
-  constexpr double kUnitsPerMetre = 5000.0;
+  constexpr double kUnitsPerMeter = 5000.0;
   const auto has = [&](const char* name) { return folder_name.find(name) != std::string::npos; };
   if (has("freiburg1")) {
     return SequenceCamera{
         {kWidth, kHeight, 517.3, 516.5, 318.6, 255.3, {0.2624, -0.9531, -0.0054, 0.0026, 1.1633}},
-        kUnitsPerMetre};
+        kUnitsPerMeter};
   }
   if (has("freiburg2")) {
     return SequenceCamera{
         {kWidth, kHeight, 520.9, 521.0, 325.1, 249.7, {0.2312, -0.7849, -0.0033, -0.0001, 0.9172}},
-        kUnitsPerMetre};
+        kUnitsPerMeter};
   }
   if (has("freiburg3")) {
-    return SequenceCamera{{kWidth, kHeight, 535.4, 539.2, 320.1, 247.6, {}}, kUnitsPerMetre};
+    return SequenceCamera{{kWidth, kHeight, 535.4, 539.2, 320.1, 247.6, {}}, kUnitsPerMeter};
   }
   return std::nullopt;
 }

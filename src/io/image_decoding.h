@@ -11,7 +11,7 @@ namespace mivo {
 /// another name; empty when they say nothing.
 std::string imageFormat(const unsigned char* bytes, std::size_t count);
 
-/// The image of a PNG, JPEG or binary PGM with its own channels and depth; colour in the order
+/// The image of a PNG, JPEG or binary PGM with its own channels and depth; color in the order
 /// blue, green, red. Throws Error, which begins with `name`, when it is something else, truncated
 /// or damaged: a decoder on its own may return the part of the image that it could make sense of.
 /// Bytes behind the end of the image, with which some encoders pad it, do not matter.

@@ -89,18 +89,18 @@ std::vector<ListedPair> readPairs(const fs::path& folder, const fs::path& file) 
   return pairs;
 }
 
-enum class ImageKind { kUnreadable, kDepth, kColour };
+enum class ImageKind { kUnreadable, kDepth, kColor };
 
 ImageKind kindOf(const std::string& path) {
   try {
-    return readImage(path).type() == CV_16UC1 ? ImageKind::kDepth : ImageKind::kColour;
+    return readImage(path).type() == CV_16UC1 ? ImageKind::kDepth : ImageKind::kColor;
   } catch (const Error&) {
     return ImageKind::kUnreadable;  // its frame is skipped when its turn comes
   }
 }
 
 /// Whether the first image of each line is the depth: by the first two images that tell, for a
-/// camera of 16-bit grey by the name of the folder.
+/// camera of 16-bit gray by the name of the folder.
 bool isDepthFirst(const std::vector<ListedPair>& pairs) {
   for (const ListedPair& pair : pairs) {
     const ImageKind kind = kindOf(pair.path);
@@ -154,7 +154,7 @@ SequenceCamera readEth3dCamera(const fs::path& file) {
   camera.camera.fy = table.number(1);
   camera.camera.cx = table.number(2);
   camera.camera.cy = table.number(3);
-  camera.depth_units_per_metre = 5000.0;
+  camera.depth_units_per_meter = 5000.0;
   return camera;
 }
 
@@ -195,7 +195,7 @@ void takeCamera(const fs::path& folder, SequenceListing& listing) {
     throw Error(
         folder.string() +
         " has no camera.txt, and its name is none of TUM's freiburg1, 2 or 3; write the line "
-        "'width height fx fy cx cy depth_units_per_metre [k1 k2 p1 p2 k3]' into camera.txt");
+        "'width height fx fy cx cy depth_units_per_meter [k1 k2 p1 p2 k3]' into camera.txt");
   }
 }
 

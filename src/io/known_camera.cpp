@@ -32,8 +32,8 @@ SequenceCamera sevenScenesCamera() {
 
 std::string describe(const SequenceCamera& camera) {
   const Camera& c = camera.camera;
-  return fmt::format("fx {} fy {} cx {} cy {}, {} depth units per metre", c.fx, c.fy, c.cx, c.cy,
-                     camera.depth_units_per_metre);
+  return fmt::format("fx {} fy {} cx {} cy {}, {} depth units per meter", c.fx, c.fy, c.cx, c.cy,
+                     camera.depth_units_per_meter);
 }
 
 }  // namespace mivo

@@ -21,10 +21,10 @@ std::optional<KnownCamera> cameraByName(const std::string& folder_name);
 /// Of ICL-NUIM, with the y axis down.
 SequenceCamera iclCamera();
 
-/// Of 7-Scenes: what its makers took for the depth camera; colour is not registered to it.
+/// Of 7-Scenes: what its makers took for the depth camera; color is not registered to it.
 SequenceCamera sevenScenesCamera();
 
-/// In words: "fx 525 fy 525 cx 319.5 cy 239.5, 1000 depth units per metre".
+/// In words: "fx 525 fy 525 cx 319.5 cy 239.5, 1000 depth units per meter".
 std::string describe(const SequenceCamera& camera);
 
 }  // namespace mivo

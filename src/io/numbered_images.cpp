@@ -77,8 +77,8 @@ std::vector<ListedImage> listOf(const std::map<long, ListedImage>& images) {
 
 /// Where the images of a layout lie and how their names end.
 struct ImageNames {
-  fs::path colour_folder;
-  std::vector<std::string> colour_endings;
+  fs::path color_folder;
+  std::vector<std::string> color_endings;
   fs::path depth_folder;
   std::vector<std::string> depth_endings;
 };
@@ -86,7 +86,7 @@ struct ImageNames {
 /// Pairs by number, or by stamp where the names have them; false when there is no pair.
 bool takeImages(const ImageNames& names, const fs::path& folder, SequenceListing& listing) {
   bool have_stamps = true;
-  const auto images = numberedImages(names.colour_folder, names.colour_endings, have_stamps);
+  const auto images = numberedImages(names.color_folder, names.color_endings, have_stamps);
   const auto depths = numberedImages(names.depth_folder, names.depth_endings, have_stamps);
   if (images.empty() || depths.empty()) return false;
   if (have_stamps) {
@@ -122,7 +122,7 @@ void readScanNetInfo(const fs::path& file, SequenceListing& listing) {
   TableReader table(file.string());
   while (table.next()) {
     if (table.text(0) == "m_depthShift" && table.size() > 2) {
-      listing.camera.depth_units_per_metre = table.number(2);
+      listing.camera.depth_units_per_meter = table.number(2);
     }
     if (table.text(0) != "m_calibrationDepthIntrinsic") continue;
     if (table.size() != 18) table.refuse("expected 16 numbers of a matrix");
@@ -151,7 +151,7 @@ std::optional<SequenceListing> readFrameFiles(const fs::path& folder) {
     tellLayout(folder, "7-Scenes", kNoTimes, listing);
   } else if (fs::exists(folder / "_info.txt")) {
     readScanNetInfo(folder / "_info.txt", listing);
-    listing.is_colour_reduced = true;
+    listing.is_color_reduced = true;
     tellLayout(folder, "ScanNet", kNoTimes, listing);
   } else if (fs::exists(folder / intrinsics) || fs::exists(parent / intrinsics)) {
     const bool is_here = fs::exists(folder / intrinsics);
@@ -162,7 +162,7 @@ std::optional<SequenceListing> readFrameFiles(const fs::path& folder) {
     listing.camera = sevenScenesCamera();
     listing.camera_file = "7-Scenes' published depth camera";
     tellLayout(folder, "7-Scenes",
-               std::string(kNoTimes) + "; its depth is not registered to the colour", listing);
+               std::string(kNoTimes) + "; its depth is not registered to the color", listing);
   }
   return listing;
 }
@@ -174,7 +174,7 @@ std::optional<SequenceListing> readScanNet(const fs::path& folder) {
   SequenceListing listing;
   const ImageNames names{folder / "color", {".jpg", ".png"}, folder / "depth", {".png", ".pgm"}};
   if (!takeImages(names, folder, listing)) return std::nullopt;
-  listing.is_colour_reduced = true;
+  listing.is_color_reduced = true;
   if (!takeCameraFile(folder, listing)) {
     listing.camera.camera = readIntrinsics(intrinsics);
     listing.camera_file = "intrinsic/intrinsic_depth.txt";
@@ -198,15 +198,15 @@ std::optional<SequenceListing> readSun3d(const fs::path& folder) {
   return listing;
 }
 
-/// A folder of numbered colour images beside one of depth, and a camera.txt.
+/// A folder of numbered color images beside one of depth, and a camera.txt.
 std::optional<SequenceListing> readNumberedFolders(const fs::path& folder) {
   if (!fs::exists(folder / "camera.txt")) return std::nullopt;
-  for (const char* colour : {"color", "rgb", "image"}) {
+  for (const char* color : {"color", "rgb", "image"}) {
     SequenceListing listing;
-    const ImageNames names{folder / colour, {".jpg", ".png"}, folder / "depth", {".png", ".pgm"}};
+    const ImageNames names{folder / color, {".jpg", ".png"}, folder / "depth", {".png", ".pgm"}};
     if (!takeImages(names, folder, listing)) continue;
     takeCameraFile(folder, listing);
-    tellLayout(folder, fmt::format("numbered images in {} and depth", colour), "", listing);
+    tellLayout(folder, fmt::format("numbered images in {} and depth", color), "", listing);
     return listing;
   }
   return std::nullopt;

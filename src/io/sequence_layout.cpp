@@ -26,7 +26,7 @@ std::vector<double> stampsOf(const std::vector<ListedImage>& images) {
   return stamps;
 }
 
-/// From colour to the nearest depth, s: the median over the colour images.
+/// From color to the nearest depth, s: the median over the color images.
 double medianOffset(const std::vector<ListedImage>& images,
                     const std::vector<ListedImage>& depths) {
   std::vector<double> offsets;
@@ -46,7 +46,7 @@ double medianOffset(const std::vector<ListedImage>& images,
   return *middle;
 }
 
-/// Equally many images, the n-th depth always later (or earlier) than the n-th colour by the same.
+/// Equally many images, the n-th depth always later (or earlier) than the n-th color by the same.
 void refuseOtherClock(const std::vector<ListedImage>& images,
                       const std::vector<ListedImage>& depths, const std::string& whose) {
   if (images.size() != depths.size() || images.size() < 2) return;
@@ -57,7 +57,7 @@ void refuseOtherClock(const std::vector<ListedImage>& images,
     if (std::abs(difference - offset) > kClockJitter) return;
   }
   throw Error(
-      fmt::format("{}: image for image, depth is stamped {:.3f} s {} than colour: two clocks; "
+      fmt::format("{}: image for image, depth is stamped {:.3f} s {} than color: two clocks; "
                   "images of equal stamps would be of different times. Correct the stamps, or list "
                   "the pairs in associations.txt",
                   whose, std::abs(offset), offset > 0.0 ? "later" : "earlier"));
@@ -90,7 +90,7 @@ void pairImages(const std::vector<ListedImage>& images, const std::vector<Listed
   if (listing.frames.empty()) {
     const double offset = medianOffset(images, depths);
     throw Error(
-        fmt::format("{}: no depth image is within 20 ms of a colour image; from colour to the "
+        fmt::format("{}: no depth image is within 20 ms of a color image; from color to the "
                     "nearest depth it is {:+.3f} s at the median",
                     whose, offset));
   }
@@ -99,7 +99,7 @@ void pairImages(const std::vector<ListedImage>& images, const std::vector<Listed
     if (alone == 0) return;
     listing.left_out[std::string(name) + " image without a partner within 20 ms"] += alone;
   };
-  leave_out("colour", images.size());
+  leave_out("color", images.size());
   leave_out("depth", depths.size());
 }
 

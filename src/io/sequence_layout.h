@@ -16,7 +16,7 @@ namespace mivo {
 bool hasImageLists(const std::filesystem::path& folder);
 SequenceListing readImageLists(const std::filesystem::path& folder);
 
-/// Images whose names have numbers: 7-Scenes, 3DMatch, ScanNet, SUN3D, and a colour and a depth
+/// Images whose names have numbers: 7-Scenes, 3DMatch, ScanNet, SUN3D, and a color and a depth
 /// folder beside a camera.txt. Nothing when the folder is none of these.
 std::optional<SequenceListing> readNumberedImages(const std::filesystem::path& folder);
 
@@ -26,7 +26,7 @@ struct ListedImage {
   std::string path;
 };
 
-/// Pairs colour with depth by their stamps, both lists in order, and counts those that stay alone.
+/// Pairs color with depth by their stamps, both lists in order, and counts those that stay alone.
 /// Throws Error, with what was measured, when none is near another, or when the stamps of the two
 /// differ by the same time throughout, image for image: equal ones would not belong together.
 void pairImages(const std::vector<ListedImage>& images, const std::vector<ListedImage>& depths,

@@ -30,13 +30,13 @@ struct SequenceListing {
   SequenceCamera camera;            ///< a width of 0: that of the images
   std::string camera_file;          ///< where the camera comes from, in a few words
   DepthCoding depth_coding = DepthCoding::kPlain;
-  /// The colour images show what the depth images show, at another size: they are reduced to it.
-  bool is_colour_reduced = false;
+  /// The color images show what the depth images show, at another size: they are reduced to it.
+  bool is_color_reduced = false;
   std::vector<std::string> notices;             ///< what was assumed or put right
   std::map<std::string, std::size_t> left_out;  ///< images that became no frame, by the reason
 };
 
-/// Lists a folder in one of the layouts of doc/file_formats.md, which is recognised by its files.
+/// Lists a folder in one of the layouts of doc/file_formats.md, which is recognized by its files.
 /// Throws Error when it is none, or one of its files is missing or malformed.
 SequenceListing listSequence(const std::string& folder);
 

@@ -14,7 +14,7 @@
 #include "io/sequence_listing.h"
 #include "mivo/core/error.h"
 #include "session/depth_enlargement.h"
-#include "session/grey_range.h"
+#include "session/gray_range.h"
 
 namespace mivo {
 namespace {
@@ -35,7 +35,7 @@ cv::Size sizeOf(const Camera& camera) {
   return {camera.width, camera.height};
 }
 
-/// The camera of the same images at another size; pixel centres are at whole numbers.
+/// The camera of the same images at another size; pixel centers are at whole numbers.
 Camera resized(const Camera& camera, const cv::Size& size) {
   Camera result = camera;
   const double x = static_cast<double>(size.width) / camera.width;
@@ -119,7 +119,7 @@ class SequenceReader::Images {
     Frame frame = decode(listed);
     if (frame.image.size() != image_size_) refuseSize(listed.image_path, frame.image);
     if (frame.depth.size() != depth_size_) refuseSize(listed.depth_path, frame.depth);
-    if (fit_ == Fit::kReduceColour) {
+    if (fit_ == Fit::kReduceColor) {
       cv::resize(frame.image, frame.image, depth_size_, 0.0, 0.0, cv::INTER_AREA);
     } else if (fit_ == Fit::kEnlargeDepth) {
       frame.depth = enlargeDepth(frame.depth, frame.depth_unit, image_size_);
@@ -128,8 +128,8 @@ class SequenceReader::Images {
   }
 
  private:
-  /// How colour and depth come to one size.
-  enum class Fit { kSame, kReduceColour, kEnlargeDepth };
+  /// How color and depth come to one size.
+  enum class Fit { kSame, kReduceColor, kEnlargeDepth };
 
   /// Images as they are stored, with values as a frame has them.
   Frame decode(const ListedFrame& listed) {
@@ -137,7 +137,7 @@ class SequenceReader::Images {
     frame.stamp = listed.stamp;
     const cv::Mat image = readImage(listed.image_path);
     try {
-      frame.image = toGrey(image, ChannelOrder::kBgr, range_.include(image));
+      frame.image = toGray(image, ChannelOrder::kBgr, range_.include(image));
     } catch (const Error& error) {
       throw Error(listed.image_path + ": " + error.what());
     }
@@ -146,7 +146,7 @@ class SequenceReader::Images {
       throw Error(listed.depth_path + " is no 16-bit image with one channel, as depth has to be");
     }
     decodeDepth(frame.depth, listing_.depth_coding);
-    frame.depth_unit = 1.0 / listing_.camera.depth_units_per_metre;
+    frame.depth_unit = 1.0 / listing_.camera.depth_units_per_meter;
     return frame;
   }
 
@@ -155,22 +155,22 @@ class SequenceReader::Images {
     depth_size_ = frame.depth.size();
     Camera& camera = listing_.camera.camera;
     fit_ = fitOf(camera);
-    if (camera.width == 0) setSize(camera, fit_ == Fit::kReduceColour ? depth_size_ : image_size_);
+    if (camera.width == 0) setSize(camera, fit_ == Fit::kReduceColor ? depth_size_ : image_size_);
     if (sizeOf(camera) != image_size_ &&
-        !(fit_ == Fit::kReduceColour && sizeOf(camera) == depth_size_)) {
+        !(fit_ == Fit::kReduceColor && sizeOf(camera) == depth_size_)) {
       refuseSize(listed.image_path, frame.image);
     }
     if (fit_ == Fit::kSame && depth_size_ != image_size_) {
       throw Error(
-          fmt::format("{} has {} pixels, but the colour image {}: the depth is not registered to "
-                      "the colour camera",
+          fmt::format("{} has {} pixels, but the color image {}: the depth is not registered to "
+                      "the color camera",
                       listed.depth_path, sizeText(depth_size_), sizeText(image_size_)));
     }
-    if (fit_ == Fit::kReduceColour) {
+    if (fit_ == Fit::kReduceColor) {
       camera = resized(camera, depth_size_);
-      tell("colour", image_size_, "reduced to the size of depth", depth_size_);
+      tell("color", image_size_, "reduced to the size of depth", depth_size_);
     } else if (fit_ == Fit::kEnlargeDepth) {
-      tell("depth", depth_size_, "enlarged to the size of colour", image_size_);
+      tell("depth", depth_size_, "enlarged to the size of color", image_size_);
     }
   }
 
@@ -178,9 +178,9 @@ class SequenceReader::Images {
   /// the depth.
   Fit fitOf(const Camera& camera) const {
     if (image_size_ == depth_size_) return Fit::kSame;
-    if (listing_.is_colour_reduced) return Fit::kReduceColour;
+    if (listing_.is_color_reduced) return Fit::kReduceColor;
     if (!isWholeMultiple(image_size_, depth_size_)) return Fit::kSame;
-    return sizeOf(camera) == depth_size_ ? Fit::kReduceColour : Fit::kEnlargeDepth;
+    return sizeOf(camera) == depth_size_ ? Fit::kReduceColor : Fit::kEnlargeDepth;
   }
 
   void tell(const char* image, const cv::Size& from, const char* action, const cv::Size& to) {
@@ -208,7 +208,7 @@ class SequenceReader::Images {
   cv::Size image_size_;
   cv::Size depth_size_;
   Fit fit_ = Fit::kSame;
-  GreyRange range_;
+  GrayRange range_;
 };
 
 SequenceReader::SequenceReader(const std::string& folder, const FrameRange& range) {
@@ -235,7 +235,7 @@ FrameSource::Status SequenceReader::next(Frame& frame, FrameFault& fault) {
   } catch (const Error& error) {
     fault.text = error.what();
   }
-  fault.reason = withoutPath(withoutPath(fault.text, listed.image_path, "the colour image"),
+  fault.reason = withoutPath(withoutPath(fault.text, listed.image_path, "the color image"),
                              listed.depth_path, "the depth image");
   return Status::kSkipped;
 }
@@ -245,7 +245,7 @@ const std::map<std::string, std::size_t>& SequenceReader::leftOut() const {
 }
 
 std::string SequenceReader::depthUnit() const {
-  return fmt::format("{}: {} units per metre", camera_file_, camera_.depth_units_per_metre);
+  return fmt::format("{}: {} units per meter", camera_file_, camera_.depth_units_per_meter);
 }
 
 }  // namespace mivo

@@ -36,9 +36,9 @@ SequenceWriter::SequenceWriter(const std::string& folder, const SequenceCamera& 
                                Overwrite overwrite)
     : folder_(folder), camera_(camera), last_stamp_(-std::numeric_limits<double>::infinity()) {
   camera.camera.validate();
-  if (!std::isfinite(camera.depth_units_per_metre) || !(camera.depth_units_per_metre > 0.0)) {
-    throw Error(fmt::format("{} depth units per metre: a positive number is needed",
-                            camera.depth_units_per_metre));
+  if (!std::isfinite(camera.depth_units_per_meter) || !(camera.depth_units_per_meter > 0.0)) {
+    throw Error(fmt::format("{} depth units per meter: a positive number is needed",
+                            camera.depth_units_per_meter));
   }
   createFolder(folder);
   if (overwrite == Overwrite::kYes) removeOld();
@@ -73,10 +73,10 @@ cv::Mat SequenceWriter::storedDepth(const cv::Mat& depth) const {
   if (depth.type() != CV_32FC1) throw Error("depth to be written is neither CV_16UC1 nor CV_32FC1");
   cv::Mat stored(depth.size(), CV_16UC1);
   for (int y = 0; y < depth.rows; ++y) {
-    const float* const metres = depth.ptr<float>(y);
+    const float* const meters = depth.ptr<float>(y);
     std::uint16_t* const units = stored.ptr<std::uint16_t>(y);
     for (int x = 0; x < depth.cols; ++x) {
-      const double value = std::round(double{metres[x]} * camera_.depth_units_per_metre);
+      const double value = std::round(double{meters[x]} * camera_.depth_units_per_meter);
       const bool fits = value > 0.0 && value <= std::numeric_limits<std::uint16_t>::max();
       units[x] = fits ? static_cast<std::uint16_t>(value) : std::uint16_t{0};
     }
@@ -91,8 +91,7 @@ void SequenceWriter::writeFrame(double stamp, const cv::Mat& image, double depth
     throw Error(fmt::format("frame {:.6f} for {} has not the size of the camera", stamp, folder_));
   }
   if (image.type() != CV_8UC1 && image.type() != CV_8UC3 && image.type() != CV_16UC1) {
-    throw Error(
-        fmt::format("frame {:.6f} for {} is neither grey nor 8-bit colour", stamp, folder_));
+    throw Error(fmt::format("frame {:.6f} for {} is neither gray nor 8-bit color", stamp, folder_));
   }
   const std::string image_stamp = fmt::format("{:.6f}", stamp);
   const std::string depth_text = fmt::format("{:.6f}", depth_stamp);

@@ -24,7 +24,7 @@ class SequenceWriter {
   /// @param stamp        s; frames must come in the order of their stamps, 1 us apart at least
   /// @param image        CV_8UC1 or CV_16UC1, or CV_8UC3 in the order blue, green, red
   /// @param depth_stamp  s, of the depth image
-  /// @param depth        same size; CV_16UC1 in the camera's depth units, or CV_32FC1 in metres,
+  /// @param depth        same size; CV_16UC1 in the camera's depth units, or CV_32FC1 in meters,
   ///                     which is rounded; what is not finite, not positive or beyond the range of
   ///                     16 bits becomes 0, no reading
   /// Throws Error for anything else, and when a file cannot be written.

@@ -107,7 +107,7 @@ class TrajectoryParser {
 
   TrajectoryFile read() {
     while (table_.next()) {
-      if (file_.poses.empty() && !columns_ && !recognise()) continue;
+      if (file_.poses.empty() && !columns_ && !recognize()) continue;
       file_.poses.push_back(format_ == Format::kKitti ? kittiPose(table_, file_.poses.size())
                                                       : tablePose());
     }
@@ -118,7 +118,7 @@ class TrajectoryParser {
 
  private:
   /// By the first record, and the heading before it; false when it is the heading.
-  bool recognise() {
+  bool recognize() {
     for (const std::string& comment : table_.comments()) {
       const auto columns = parseHeading(comment);
       if (!columns || columns->count != table_.size()) continue;

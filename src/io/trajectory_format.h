@@ -11,7 +11,7 @@ namespace mivo {
 /// A trajectory as it was read.
 struct TrajectoryFile {
   Trajectory poses;                  ///< in the order of the file
-  std::vector<std::string> notices;  ///< what was recognised that is not plain
+  std::vector<std::string> notices;  ///< what was recognized that is not plain
   bool is_order_assumed = false;     ///< nothing in the file says that qw is the last number
 };
 
@@ -23,7 +23,7 @@ struct TrajectoryFile {
 ///   poses ROS 2 CSV    `sec,nanosec,frame,...,x,y,z,qx,qy,qz,qw,...`, as `ros2 topic echo --csv`
 ///   prints it
 /// Stamps may be seconds, milli-, micro- or nanoseconds, see stampUnit(). Quaternions are
-/// normalised when they are within a tenth of unit length. Throws Error, naming file and line, for
+/// normalized when they are within a tenth of unit length. Throws Error, naming file and line, for
 /// anything else, and when there is no pose at all.
 TrajectoryFile readTrajectoryFile(const std::string& path);
 

@@ -15,28 +15,28 @@ namespace mivo {
 enum class StreamKind { kColor, kDepth };
 constexpr int kStreamKinds = 2;
 
-const char* toString(StreamKind kind);  ///< colour, depth
+const char* toString(StreamKind kind);  ///< color, depth
 
 /// An image of the driver. The memory belongs to the driver and is valid during the callback only:
 /// copy the pixels to keep them.
 struct ImageView {
   StreamKind kind = StreamKind::kColor;
-  const std::uint8_t* data = nullptr;  ///< colour: RGB, 8 bits each; depth: 16 bits, 0: no reading
+  const std::uint8_t* data = nullptr;  ///< color: RGB, 8 bits each; depth: 16 bits, 0: no reading
   int width = 0;                       ///< pixels
   int height = 0;                      ///< pixels
   std::size_t stride = 0;              ///< bytes from row to row
-  double depth_unit = 0.0;             ///< metres per step of a depth image
+  double depth_unit = 0.0;             ///< meters per step of a depth image
   std::uint64_t device_stamp = 0;      ///< microseconds of the device's own clock
   int index = 0;                       ///< counts frames; a gap is a dropped frame
 };
 
-/// Settings of the colour camera. An absent value is not changed (when set) or not known (when
+/// Settings of the color camera. An absent value is not changed (when set) or not known (when
 /// read).
 struct CameraSettings {
   std::optional<bool> auto_exposure;
   std::optional<bool> auto_white_balance;
   std::optional<int> exposure;  ///< in the device's own steps; acts with auto exposure off
-  std::optional<int> gain;      ///< per cent for PrimeSense devices; acts with auto exposure off
+  std::optional<int> gain;      ///< percent for PrimeSense devices; acts with auto exposure off
 };
 
 bool operator==(const CameraSettings& a, const CameraSettings& b);
@@ -58,9 +58,9 @@ struct DeviceRequest {
   int width = 640;            ///< pixels, of both images
   int height = 480;           ///< pixels
   int rate = 30;              ///< Hz
-  double depth_unit = 0.001;  ///< metres: 0.001 or 0.0001
-  bool registration = true;   ///< depth registered to colour by the device
-  bool synchronise = true;    ///< expose colour and depth together, if the device supports it
+  double depth_unit = 0.001;  ///< meters: 0.001 or 0.0001
+  bool registration = true;   ///< depth registered to color by the device
+  bool synchronize = true;    ///< expose color and depth together, if the device supports it
   bool repeat = false;        ///< play a recording in a loop
 };
 
@@ -95,7 +95,7 @@ class CameraDevice {
   virtual bool read(std::chrono::milliseconds timeout,
                     const std::function<void(const ImageView&)>& callback) = 0;
 
-  /// Applies the given values. Devices ignore them unless the colour stream has delivered an image.
+  /// Applies the given values. Devices ignore them unless the color stream has delivered an image.
   virtual void applySettings(const CameraSettings& settings) = 0;
 
   /// Current values reported by the device.

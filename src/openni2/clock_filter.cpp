@@ -73,7 +73,7 @@ void ClockFilter::observe(std::uint64_t device_stamp, std::int64_t arrival) {
     quiet_ = 0;
     near_ = 0;
   }
-  // Colour and depth of one moment are late together and count once.
+  // Color and depth of one moment are late together and count once.
   if (point.difference < floor_ + kNews && std::abs(device - last_near_) > kMoment) {
     ++near_;
     last_near_ = device;

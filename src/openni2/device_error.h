@@ -14,9 +14,9 @@ enum class DeviceFault {
   kWrongAddress,    ///< something is plugged in, but not what was asked for; or no such file
   kInUse,           ///< another process holds the camera
   kNoPermission,    ///< the USB node may not be written by this user
-  kNoColor,         ///< the device has no colour camera
+  kNoColor,         ///< the device has no color camera
   kNoDepth,         ///< the device has no depth camera
-  kNoRegistration,  ///< the device cannot register depth to colour
+  kNoRegistration,  ///< the device cannot register depth to color
   kNoMode,          ///< size, rate or format is not offered
   kBadRecording,    ///< the file is no recording that can be played
   kUsb,             ///< the USB transfer could not be set up

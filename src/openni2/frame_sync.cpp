@@ -7,11 +7,11 @@
 
 namespace mivo {
 
-bool canSynchronise(const openni::Device& device) {
+bool canSynchronize(const openni::Device& device) {
   return device.isPropertySupported(XN_MODULE_PROPERTY_FIRMWARE_FRAME_SYNC);
 }
 
-void synchronise(openni::Device& device, bool on) {
+void synchronize(openni::Device& device, bool on) {
   // A refusal shows in the pairing offset of the diagnostics.
   device.setProperty<std::uint64_t>(XN_MODULE_PROPERTY_FIRMWARE_FRAME_SYNC, on ? 1 : 0);
 }

@@ -5,14 +5,14 @@
 
 namespace mivo {
 
-// Exposing colour and depth together, by the camera's own property. Not by the SDK's
+// Exposing color and depth together, by the camera's own property. Not by the SDK's
 // setDepthColorSyncEnabled: with that on, starting or stopping a stream makes the SDK destroy the
 // receiver of the other stream's images without synchronizing with the driver's thread, which may
 // crash the process.
 
-bool canSynchronise(const openni::Device& device);
+bool canSynchronize(const openni::Device& device);
 
 /// For two streams that run; the camera forgets it when one of them starts or stops.
-void synchronise(openni::Device& device, bool on);
+void synchronize(openni::Device& device, bool on);
 
 }  // namespace mivo

@@ -52,7 +52,7 @@ class OpenNi2Device::Implementation : private openni::OpenNI::DeviceDisconnected
     // From here on the destructor does not run when something throws: members clean up themselves.
     createStreams(request);
     setRegistration(request);
-    setSynchronisation(request);
+    setSynchronization(request);
     setPlayback(request);
     openni::OpenNI::addDeviceDisconnectedListener(this);
   }
@@ -83,16 +83,16 @@ class OpenNi2Device::Implementation : private openni::OpenNI::DeviceDisconnected
     }
     running = true;
     has_streamed_ = true;
-    if (can_synchronise_ && running_[0] && running_[1]) {
-      synchronise(handles_->device, true);
+    if (can_synchronize_ && running_[0] && running_[1]) {
+      synchronize(handles_->device, true);
     }
   }
 
   void stop(StreamKind kind) {
     bool& running = running_[static_cast<std::size_t>(kind)];
     if (running) {
-      if (can_synchronise_) {
-        synchronise(handles_->device, false);  // or the other stream waits for this one
+      if (can_synchronize_) {
+        synchronize(handles_->device, false);  // or the other stream waits for this one
       }
       stream(kind).stop();
       running = false;
@@ -223,9 +223,9 @@ class OpenNi2Device::Implementation : private openni::OpenNI::DeviceDisconnected
     }
   }
 
-  void setSynchronisation(const DeviceRequest& request) {
-    can_synchronise_ = request.synchronise && canSynchronise(handles_->device);
-    if (request.synchronise && !can_synchronise_ && !description_.is_recording) {
+  void setSynchronization(const DeviceRequest& request) {
+    can_synchronize_ = request.synchronize && canSynchronize(handles_->device);
+    if (request.synchronize && !can_synchronize_ && !description_.is_recording) {
       note(description_.name +
            " does not expose color and depth together; they are paired by time alone");
     }
@@ -256,7 +256,7 @@ class OpenNi2Device::Implementation : private openni::OpenNI::DeviceDisconnected
   std::unique_ptr<Handles> handles_ = std::make_unique<Handles>();
   std::array<bool, kStreamKinds> running_{};
   bool has_streamed_ = false;
-  bool can_synchronise_ = false;
+  bool can_synchronize_ = false;
   std::atomic<bool> connected_{true};
   DeviceDescription description_;
 };

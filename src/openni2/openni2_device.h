@@ -9,7 +9,7 @@
 
 namespace mivo {
 
-/// A camera or a recording through libOpenNI2. While one exists, the library is initialised; when
+/// A camera or a recording through libOpenNI2. While one exists, the library is initialized; when
 /// the last one goes, it is shut down, so that opening again looks for devices anew.
 class OpenNi2Device : public CameraDevice {
  public:

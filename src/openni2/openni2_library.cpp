@@ -16,7 +16,7 @@ std::shared_ptr<OpenNi2Library> OpenNi2Library::acquire() {
   const std::lock_guard<std::mutex> lock(mutex);
   std::shared_ptr<OpenNi2Library> library = shared.lock();
   if (!library) {
-    // Under the mutex from initialise to shutdown: the library's are not made for two threads.
+    // Under the mutex from initialize to shutdown: the library's are not made for two threads.
     library = std::shared_ptr<OpenNi2Library>(new OpenNi2Library(), [](OpenNi2Library* pointer) {
       const std::lock_guard<std::mutex> delete_lock(mutex);
       delete pointer;

@@ -9,7 +9,7 @@
 
 namespace mivo {
 
-/// libOpenNI2, initialised while an object exists: all cameras of the process share one.
+/// libOpenNI2, initialized while an object exists: all cameras of the process share one.
 class OpenNi2Library {
  public:
   /// Throws DeviceError when the library finds no driver.

@@ -10,8 +10,8 @@
 namespace mivo {
 namespace {
 
-constexpr double kMillimetre = 1e-3;
-constexpr double kTenthOfMillimetre = 1e-4;
+constexpr double kMillimeter = 1e-3;
+constexpr double kTenthOfMillimeter = 1e-4;
 
 const char* nameOf(openni::PixelFormat format) {
   switch (format) {
@@ -41,7 +41,7 @@ openni::PixelFormat wantedFormat(StreamKind kind, const DeviceRequest& request) 
   if (kind == StreamKind::kColor) {
     return openni::PIXEL_FORMAT_RGB888;
   }
-  const double middle = std::sqrt(kMillimetre * kTenthOfMillimetre);
+  const double middle = std::sqrt(kMillimeter * kTenthOfMillimeter);
   return request.depth_unit > middle ? openni::PIXEL_FORMAT_DEPTH_1_MM
                                      : openni::PIXEL_FORMAT_DEPTH_100_UM;
 }
@@ -110,8 +110,8 @@ ImageView viewOf(openni::VideoFrameRef& frame) {
   view.stride = static_cast<std::size_t>(frame.getStrideInBytes());
   if (view.kind == StreamKind::kDepth) {
     view.depth_unit = frame.getVideoMode().getPixelFormat() == openni::PIXEL_FORMAT_DEPTH_100_UM
-                          ? kTenthOfMillimetre
-                          : kMillimetre;
+                          ? kTenthOfMillimeter
+                          : kMillimeter;
   }
   view.device_stamp = frame.getTimestamp();
   view.index = frame.getFrameIndex();

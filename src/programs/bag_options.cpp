@@ -5,7 +5,7 @@ namespace mivo {
 
 void declareTopics(CommandLine& line, RgbdTopics* topics) {
   namespace po = boost::program_options;
-  line.options()("rgb", po::value<std::string>(&topics->colour),
+  line.options()("rgb", po::value<std::string>(&topics->color),
                  "topic of the color images (default: found by known names)")(
       "depth", po::value<std::string>(&topics->depth),
       "topic of the depth images, registered to the color camera (default: found by known names)")(

@@ -13,15 +13,15 @@
 
 namespace {
 
-/// Grey stays as it is; colour with blue first, as image files are written, and of 16 bits as the
-/// grey that the tracker sees.
-cv::Mat toBgr(mivo::BagSource& source, const mivo::ColourImage& colour) {
-  if (colour.image.depth() == CV_16U && colour.image.channels() > 1) return source.toGrey(colour);
-  const bool rgb = colour.order == mivo::ChannelOrder::kRgb;
-  cv::Mat image = colour.image;
-  if (image.channels() == 3 && rgb) cv::cvtColor(colour.image, image, cv::COLOR_RGB2BGR);
+/// Gray stays as it is; color with blue first, as image files are written, and of 16 bits as the
+/// gray that the tracker sees.
+cv::Mat toBgr(mivo::BagSource& source, const mivo::ColorImage& color) {
+  if (color.image.depth() == CV_16U && color.image.channels() > 1) return source.toGray(color);
+  const bool rgb = color.order == mivo::ChannelOrder::kRgb;
+  cv::Mat image = color.image;
+  if (image.channels() == 3 && rgb) cv::cvtColor(color.image, image, cv::COLOR_RGB2BGR);
   if (image.channels() == 4) {
-    cv::cvtColor(colour.image, image, rgb ? cv::COLOR_RGBA2BGR : cv::COLOR_BGRA2BGR);
+    cv::cvtColor(color.image, image, rgb ? cv::COLOR_RGBA2BGR : cv::COLOR_BGRA2BGR);
   }
   return image;
 }
@@ -32,12 +32,12 @@ void writeFrames(mivo::BagSource& source, mivo::SequenceWriter& writer) {
   for (const mivo::BagSource::Pair& pair : source.pairs()) {
     try {
       const mivo::MessageImages images = source.read(pair);
-      writer.writeFrame(pair.colour.stamp, toBgr(source, images.colour), pair.depth.stamp,
+      writer.writeFrame(pair.color.stamp, toBgr(source, images.color), pair.depth.stamp,
                         images.depth.image);
       ++written;
     } catch (const mivo::Error& error) {
       progress.clear();
-      std::cerr << "skipped: frame of stamp " << std::to_string(pair.colour.stamp) << ": "
+      std::cerr << "skipped: frame of stamp " << std::to_string(pair.color.stamp) << ": "
                 << error.what() << "\n";
     }
     progress.advance();
@@ -67,7 +67,7 @@ void run(int argc, char** argv) {
   if (!source.notice().empty()) {
     std::cerr << "bag_to_sequence: note: " << source.notice() << "\n";
   }
-  mivo::SequenceWriter writer(folder, {source.camera(), source.depthUnitsPerMetre()},
+  mivo::SequenceWriter writer(folder, {source.camera(), source.depthUnitsPerMeter()},
                               force ? mivo::Overwrite::kYes : mivo::Overwrite::kNo);
   writeFrames(source, writer);
   for (const mivo::StampedPose& pose : source.groundTruth()) writer.writePose(pose);

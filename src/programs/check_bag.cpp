@@ -19,7 +19,7 @@ void printTopics(const std::vector<std::string>& bags, const mivo::RgbdTopics& w
   const mivo::Recording recording(bags);
   const mivo::RgbdTopics topics = mivo::findTopics(recording.contents(), wanted);
   std::cout << "layout: " << mivo::layoutOf(topics) << "\n"
-            << "rgb: " << topics.colour << "\n"
+            << "rgb: " << topics.color << "\n"
             << "depth: " << topics.depth << "\n"
             << "camera_info: " << topics.camera_info << "\n"
             << "depth_info: " << topics.depth_info << "\n";

@@ -40,7 +40,7 @@ void run(int argc, char** argv) {
   line.argument("ESTIMATE", &estimate_path, "estimated trajectory, in any of these formats");
   line.options()("delta", po::value(&options.delta)->default_value(options.delta, "1"),
                  "interval of the relative pose error, seconds")(
-      "delta-metres", po::value(&options.delta_metres)->default_value(options.delta_metres, "1"),
+      "delta-meters", po::value(&options.delta_meters)->default_value(options.delta_meters, "1"),
       "interval of the relative pose error along the true path, meters")(
       "max-time-difference",
       po::value(&options.max_time_difference)->default_value(options.max_time_difference, "0.02"),
@@ -51,7 +51,7 @@ void run(int argc, char** argv) {
                                                               "replace existing files");
   if (!line.parse(argc, argv)) return;
   requirePositive("delta", options.delta, "seconds");
-  requirePositive("delta-metres", options.delta_metres, "metres");
+  requirePositive("delta-meters", options.delta_meters, "meters");
   requirePositive("max-time-difference", options.max_time_difference, "seconds");
   if (!plot_path.empty()) mivo::requirePlotEnding("--plot", plot_path);
   const mivo::Overwrite overwrite = force ? mivo::Overwrite::kYes : mivo::Overwrite::kNo;

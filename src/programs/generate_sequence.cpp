@@ -91,7 +91,7 @@ void addSequenceOptions(mivo::CommandLine& line, Request& request) {
       "force", po::bool_switch(&request.force), "replace an existing sequence");
 }
 
-void addColourOptions(mivo::CommandLine& line, Request& request) {
+void addColorOptions(mivo::CommandLine& line, Request& request) {
   mivo::SensorOptions& s = request.generator.sensor;
   line.options()("ideal", po::bool_switch(&request.ideal),
                  "no noise, no motion blur, no quantization of depth, no holes")(
@@ -102,7 +102,7 @@ void addColourOptions(mivo::CommandLine& line, Request& request) {
       "adapt exposure time and gain to the images")("exposure-delay",
                                                     number(s.exposure_control.delay, "10"),
                                                     "frames until a measurement takes effect")(
-      "target-grey", number(s.exposure_control.target_grey, "110"),
+      "target-gray", number(s.exposure_control.target_gray, "110"),
       "mean value targeted by metering")(
       "max-exposure-time", number(s.exposure_control.max_time, "0.030"), "s, with --auto-exposure")(
       "max-gain", number(s.exposure_control.max_gain, "16"), "with --auto-exposure")(
@@ -129,7 +129,7 @@ void addDepthOptions(mivo::CommandLine& line, Request& request) {
       "valid depth at edges, in shadows and at grazing angles")(
       "min-depth", number(s.depth.min_depth, "0.4"), "m")(
       "max-depth", number(s.depth.max_depth, "5"), "m")("depth-units",
-                                                        number(s.depth.units_per_metre, "5000"),
+                                                        number(s.depth.units_per_meter, "5000"),
                                                         "units per meter in the depth images")(
       "depth-offset", mivo::twoNumbers(&request.depth_offset)->value_name("X Y"),
       "error of the depth registration, pixels (default: none)")(
@@ -271,7 +271,7 @@ void run(int argc, char** argv) {
       "folder.");
   line.argument("FOLDER", &request.folder, "sequence folder to write");
   addSequenceOptions(line, request);
-  addColourOptions(line, request);
+  addColorOptions(line, request);
   addDepthOptions(line, request);
   if (!line.parse(argc, argv)) return;
   const mivo::GeneratorOptions options = generatorOptions(request, line);
@@ -287,7 +287,7 @@ void run(int argc, char** argv) {
     throw mivo::UsageError(error.what());  // all it depends on are options
   }
   mivo::SequenceWriter writer(request.folder,
-                              {options.camera, options.sensor.depth.units_per_metre}, overwrite);
+                              {options.camera, options.sensor.depth.units_per_meter}, overwrite);
   Extras extras(request, overwrite);
   mivo::ProgressBar progress(static_cast<std::size_t>(options.frames));
   // A frame is compressed and written while the next one is drawn.
@@ -296,7 +296,7 @@ void run(int argc, char** argv) {
     mivo::SyntheticFrame frame = generator->next();
     if (writing.valid()) writing.get();
     writing = std::async(std::launch::async, [&writer, &extras, frame = std::move(frame)] {
-      writer.writeFrame(frame.stamp, frame.colour, frame.stamp, frame.depth);
+      writer.writeFrame(frame.stamp, frame.color, frame.stamp, frame.depth);
       writer.writePose({frame.stamp, frame.T_world_camera});
       extras.write(frame);
     });

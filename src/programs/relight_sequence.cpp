@@ -34,7 +34,7 @@ struct Image {
 };
 
 struct Contents {
-  std::vector<Image> colour;  // by stamp, each once
+  std::vector<Image> color;  // by stamp, each once
   std::vector<fs::path> depth;
 };
 
@@ -50,15 +50,15 @@ fs::path relativePath(const mivo::TableReader& table, std::size_t field) {
 Contents listImages(const fs::path& folder) {
   Contents contents;
   std::set<fs::path> seen;
-  const auto add = [&](const char* list, std::size_t stamp_field, bool colour) {
+  const auto add = [&](const char* list, std::size_t stamp_field, bool color) {
     if (!fs::exists(folder / list)) return;
     mivo::TableReader table((folder / list).string());
     while (table.next()) {
       if (table.size() < stamp_field + 2) table.refuse("expected a stamp and a path");
       const fs::path path = relativePath(table, stamp_field + 1);
       if (!seen.insert(path).second) continue;
-      if (colour) {
-        contents.colour.push_back({table.number(stamp_field), path});
+      if (color) {
+        contents.color.push_back({table.number(stamp_field), path});
       } else {
         contents.depth.push_back(path);
       }
@@ -68,7 +68,7 @@ Contents listImages(const fs::path& folder) {
   add("associations.txt", 0, true);
   add("depth.txt", 0, false);
   add("associations.txt", 2, false);
-  std::stable_sort(contents.colour.begin(), contents.colour.end(),
+  std::stable_sort(contents.color.begin(), contents.color.end(),
                    [](const Image& a, const Image& b) { return a.stamp < b.stamp; });
   return contents;
 }
@@ -103,14 +103,14 @@ void copyInto(const fs::path& in, const fs::path& out, const fs::path& file) {
   fs::copy_file(in / file, out / file, fs::copy_options::overwrite_existing);
 }
 
-// Everything but the colour images: untouched, byte for byte.
+// Everything but the color images: untouched, byte for byte.
 void copyRest(const fs::path& in, const fs::path& out, const Contents& contents,
               const mivo::SequenceReader& reader) {
   for (const char* list : kLists) copyInto(in, out, list);
   for (const fs::path& depth : contents.depth) copyInto(in, out, depth);
   // The camera may have been known by the folder's name, which the copy does not have.
   if (!fs::exists(in / "camera.txt")) {
-    mivo::writeCamera((out / "camera.txt").string(), {reader.camera(), reader.depthUnitsPerMetre()},
+    mivo::writeCamera((out / "camera.txt").string(), {reader.camera(), reader.depthUnitsPerMeter()},
                       mivo::Overwrite::kYes);
   }
 }
@@ -144,15 +144,15 @@ void run(int argc, char** argv) {
   const mivo::SequenceReader reader(in);
   if (!reader.notice().empty()) std::cerr << "relight_sequence: " << reader.notice() << "\n";
   const Contents contents = listImages(in);
-  const std::size_t count = contents.colour.size();
+  const std::size_t count = contents.color.size();
   prepareFolder(in, out, force);
   copyRest(in, out, contents, reader);
-  const double duration = contents.colour.back().stamp - contents.colour.front().stamp;
+  const double duration = contents.color.back().stamp - contents.color.front().stamp;
   mivo::Relighting relighting(
       lighting,
       {static_cast<int>(count), count > 1 ? duration / static_cast<double>(count - 1) : 1.0}, seed);
   mivo::ProgressBar progress(count);
-  for (const Image& image : contents.colour) {
+  for (const Image& image : contents.color) {
     cv::Mat pixels;
     try {
       pixels = mivo::readImage((fs::path(in) / image.path).string());

@@ -67,7 +67,7 @@ void writeImages(const std::vector<Image>& images, mivo::BagWriter& bag) {
       if (image.is_depth) {
         bag.writeDepth(image.stamp, pixels);
       } else {
-        bag.writeColour(image.stamp, pixels);
+        bag.writeColor(image.stamp, pixels);
       }
     } catch (const mivo::Error& error) {
       progress.clear();

@@ -12,7 +12,7 @@ namespace mivo {
 /// Columns: stamp (s), state, reason, keyframe (its number, 0: none), new_keyframe (0 or 1),
 /// segment; for each level L of the pyramid, 0 the finest, iterations_L, evaluations_L (of the
 /// cost), points_L (of the keyframe), visible_L (of them used), ms_L and, of it, ms_line_search_L;
-/// mutual_information (nats), residual_scale (grey levels), overlap (0..1); sigma_tx, sigma_ty,
+/// mutual_information (nats), residual_scale (gray levels), overlap (0..1); sigma_tx, sigma_ty,
 /// sigma_tz (m), sigma_rx, sigma_ry, sigma_rz (rad), square roots of the covariance's diagonal;
 /// ms_pyramid, ms_tracking, ms_keyframe, ms_total, processor time by stage; cpu_ms, processor time
 /// of the process; covariance_00 to covariance_55, its upper triangle; depth_time_offset (s).

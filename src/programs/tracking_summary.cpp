@@ -19,7 +19,7 @@ constexpr double kFarRoom = 6.0;
 const char* const kMultiplesOf8 =
     "its values are multiples of 8, as if their bits were rotated by three to the left (SUN "
     "RGB-D): "
-    "8 times as many units per metre read them, or undo it";
+    "8 times as many units per meter read them, or undo it";
 
 /// The reason that most frames have.
 CountByReason::value_type mostFrequent(const TrackingSummary& summary) {
@@ -46,7 +46,7 @@ std::string describeDepth(const TrackingSummary& summary) {
 /// What the bits of a depth image say, and what to do; of a coarse one, too.
 std::string describe(const DepthStorage& storage) {
   if (storage.is_rotated_right) {
-    return "neighbouring values jump, unless their 16 bits are rotated by three to the left: undo "
+    return "neighboring values jump, unless their 16 bits are rotated by three to the left: undo "
            "what has rotated them to the right";
   }
   if (storage.coarse_step > 0.0) {
@@ -67,10 +67,10 @@ std::string usualStorage(const TrackingSummary& summary) {
 /// A usual unit with which the median would be one of a room.
 std::string otherUnit(double median, double unit) {
   if (unit == 0.0) unit = 1.0;
-  for (const double units_per_metre : {1000.0, 5000.0, 10000.0, 256.0}) {
-    const double other = median / unit / units_per_metre;
+  for (const double units_per_meter : {1000.0, 5000.0, 10000.0, 256.0}) {
+    const double other = median / unit / units_per_meter;
     if (other < kNearRoom || other > kFarRoom) continue;
-    return fmt::format(" With {} units per metre it would be {:.4g} m", units_per_metre, other);
+    return fmt::format(" With {} units per meter it would be {:.4g} m", units_per_meter, other);
   }
   return {};
 }
@@ -80,8 +80,8 @@ std::string otherUnit(double median, double unit) {
 void TrackingSummary::add(const Frame& frame, const TrackingResult& result, double frame_cpu_ms) {
   ++frames;
   switch (result.state) {
-    case TrackingState::kInitialising:
-      ++initialising;
+    case TrackingState::kInitializing:
+      ++initializing;
       break;
     case TrackingState::kTracking:
       ++tracked;
@@ -118,7 +118,7 @@ bool TrackingSummary::addSkipped(const std::string& reason) {
 
 void print(std::ostream& stream, const TrackingSummary& summary) {
   stream << "frames: " << summary.frames << "\n"
-         << "initialising: " << summary.initialising << "\n"
+         << "initializing: " << summary.initializing << "\n"
          << "tracked: " << summary.tracked << "\n"
          << "degraded: " << summary.degraded << "\n"
          << "lost: " << summary.lost << "\n"

@@ -19,14 +19,14 @@ using CountByReason = std::map<std::string, std::size_t>;
 /// Totals over a run.
 struct TrackingSummary {
   std::size_t frames = 0;  ///< processed by the tracker, without skipped ones
-  std::size_t initialising = 0;
+  std::size_t initializing = 0;
   std::size_t tracked = 0;
   std::size_t degraded = 0;
   std::size_t lost = 0;
   std::size_t skipped_frames = 0;  ///< that could not be read, or were refused
   CountByReason skipped;           ///< the same by reason
   CountByReason left_out;          ///< images that became no frame, by reason
-  CountByReason not_measured;      ///< of `frames`: initialising and lost ones by reason
+  CountByReason not_measured;      ///< of `frames`: initializing and lost ones by reason
   std::size_t motions = 0;         ///< frames measured against a keyframe
   int keyframes = 0;
   int segments = 0;
@@ -35,7 +35,7 @@ struct TrackingSummary {
   std::vector<double> cpu_ms;  ///< of each frame, all threads, from decoded images to the pose
   std::vector<double> depth_medians;  ///< m, of the frames that have depth
   double depth_coverage = 0.0;        ///< part of the pixels with depth, summed over the frames
-  double depth_unit = 0.0;            ///< m, of 16-bit depth, of the last frame; 0: metres
+  double depth_unit = 0.0;            ///< m, of 16-bit depth, of the last frame; 0: meters
   CountByReason depth_storage;        ///< frames by how their depth seems to be stored, see below
 
   /// Counts a processed frame.

@@ -131,7 +131,7 @@ void warnOfTimes(BagReport& report) {
     warn(fmt::format("{} left out: {}", count, reason));
   }
   if (report.clock_offset && std::abs(*report.clock_offset) > kClockOffset) {
-    warn(fmt::format("colour and depth that came together are stamped {:.3f} s apart",
+    warn(fmt::format("color and depth that came together are stamped {:.3f} s apart",
                      std::abs(*report.clock_offset)));
   }
 }
@@ -147,7 +147,7 @@ void warnOfImages(BagReport& report) {
   if (report.edge_shift && std::hypot(report.edge_shift->x, report.edge_shift->y) > kEdgeShift) {
     warn(fmt::format(
         "edges of depth lie {:.1f} pixels to the {} and {:.1f} pixels {} of those of "
-        "colour: depth is not registered, or by a wrong calibration",
+        "color: depth is not registered, or by a wrong calibration",
         std::abs(report.edge_shift->x), report.edge_shift->x > 0.0 ? "left" : "right",
         std::abs(report.edge_shift->y), report.edge_shift->y > 0.0 ? "above" : "below"));
   }
@@ -170,7 +170,7 @@ BagReport checkBag(const std::vector<std::string>& paths, const RgbdTopics& want
   const RgbdTopics& topics = source.topics();
   BagReport report;
   report.layout = layoutOf(topics);
-  report.streams = {reportOn(source.recording(), "colour", topics.colour),
+  report.streams = {reportOn(source.recording(), "color", topics.color),
                     reportOn(source.recording(), "depth", topics.depth),
                     reportOn(source.recording(), "calibration", topics.camera_info)};
   report.pairs = source.size();

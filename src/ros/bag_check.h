@@ -14,7 +14,7 @@ namespace mivo {
 
 /// The stamps of one topic as they were recorded.
 struct StreamReport {
-  std::string name;  ///< colour, depth, calibration
+  std::string name;  ///< color, depth, calibration
   std::string topic;
   std::size_t messages = 0;
   double rate = 0.0;         ///< per second, by the median period; 0: fewer than two
@@ -30,7 +30,7 @@ struct BagReport {
   std::vector<StreamReport> streams;
   std::size_t pairs = 0;
   std::map<std::string, std::size_t> left_out;
-  double pair_offset = 0.0;            ///< s, median, stamp of depth minus that of colour
+  double pair_offset = 0.0;            ///< s, median, stamp of depth minus that of color
   std::optional<double> clock_offset;  ///< s, see ClockOffset
   Camera camera;
   std::size_t calibrations = 0;  ///< that differ

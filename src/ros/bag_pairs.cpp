@@ -10,7 +10,7 @@ namespace mivo {
 namespace {
 
 std::string withoutPartner(ImageStream stream) {
-  return std::string(stream == ImageStream::kColour ? "colour" : "depth") +
+  return std::string(stream == ImageStream::kColor ? "color" : "depth") +
          " image without a partner within 20 ms";
 }
 
@@ -34,8 +34,8 @@ BagPairs pairAsRecorded(const std::vector<StreamedImage>& images, std::size_t& d
   options.capacity = std::numeric_limits<std::size_t>::max();
   StampPairer<BagImage> pairer(
       options,
-      [&](BagImage& colour, BagImage& depth) {
-        order.push(colour.stamp, {colour, depth});
+      [&](BagImage& color, BagImage& depth) {
+        order.push(color.stamp, {color, depth});
       },
       [&](ImageStream stream, BagImage&) { leaveOut(withoutPartner(stream), 1, result); });
   for (const StreamedImage& image : images) {
@@ -65,7 +65,7 @@ BagPairs pairSorted(const std::vector<StreamedImage>& images) {
   for (const auto& [i, j] : pairByStamp(stampsOf(streams[0]), stampsOf(streams[1]))) {
     result.pairs.push_back({streams[0][i], streams[1][j]});
   }
-  for (const ImageStream stream : {ImageStream::kColour, ImageStream::kDepth}) {
+  for (const ImageStream stream : {ImageStream::kColor, ImageStream::kDepth}) {
     leaveOut(withoutPartner(stream),
              streams[static_cast<std::size_t>(stream)].size() - result.pairs.size(), result);
   }

@@ -24,7 +24,7 @@ struct StreamedImage {
 };
 
 struct BagPair {
-  BagImage colour;
+  BagImage color;
   BagImage depth;
   bool is_new_time = false;  ///< time was set back before it
 };

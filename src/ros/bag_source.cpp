@@ -23,7 +23,7 @@
 namespace mivo {
 namespace {
 
-// s, of depth against colour in most pairs: nearly as far as to the image before or after.
+// s, of depth against color in most pairs: nearly as far as to the image before or after.
 constexpr double kNotedPairOffset = 0.012;
 
 /// rosbag could not read a message that its index names.
@@ -63,10 +63,10 @@ BagSource::BagSource(const std::vector<std::string>& paths, const RgbdTopics& wa
   try {
     findDepthGeometry(!wanted.depth.empty());
     take(range);
-    frames_ = std::make_unique<FrameMaker>(isRectifiedTopic(topics_.colour));
+    frames_ = std::make_unique<FrameMaker>(isRectifiedTopic(topics_.color));
     const ImagePair first = messagesOf(pairs_.front());
-    camera_ = toCamera(*first.camera_info, isRectifiedTopic(topics_.colour),
-                       first.colour->toColourImage().image.size());
+    camera_ = toCamera(*first.camera_info, isRectifiedTopic(topics_.color),
+                       first.color->toColorImage().image.size());
     tell(doubtOf(camera_));
   } catch (const std::exception& error) {
     throw Error(recording_->name() + ": " + error.what());
@@ -93,7 +93,7 @@ void BagSource::open(const std::vector<std::string>& paths, const RgbdTopics& wa
 BagSource::Index BagSource::readIndex(Recording::Reader reader) {
   Index index;
   ClockOffset clock_offset;
-  std::vector<std::string> topics = {topics_.colour, topics_.depth, topics_.camera_info};
+  std::vector<std::string> topics = {topics_.color, topics_.depth, topics_.camera_info};
   if (!topics_.depth_info.empty()) topics.push_back(topics_.depth_info);
   for (const RecordedMessage& message : recording_->messages(topics)) {
     try {
@@ -107,7 +107,7 @@ BagSource::Index BagSource::readIndex(Recording::Reader reader) {
         continue;
       }
       const ImageStream stream =
-          message.topic() == topics_.colour ? ImageStream::kColour : ImageStream::kDepth;
+          message.topic() == topics_.color ? ImageStream::kColor : ImageStream::kDepth;
       clock_offset.add(stream, stamp, toSeconds(message.time()));
       index.images.push_back({stream, {stamp, message}});
     } catch (const Error&) {
@@ -132,7 +132,7 @@ void BagSource::findPairs(const Index& index) {
                           " are zero; set the camera's calibration file"
                     : "there is no message on the topic " + topics_.camera_info);
   }
-  for (const ImageStream stream : {ImageStream::kColour, ImageStream::kDepth}) {
+  for (const ImageStream stream : {ImageStream::kColor, ImageStream::kDepth}) {
     const std::vector<double> stamps = index.stamps(stream);
     const bool is_same = std::all_of(stamps.begin(), stamps.end(),
                                      [&](double stamp) { return stamp == stamps.front(); });
@@ -141,7 +141,7 @@ void BagSource::findPairs(const Index& index) {
       refuseEqualStamps(stamps.size(), stamps.front());
     } catch (const Error& error) {
       throw Error("the images on " +
-                  (stream == ImageStream::kColour ? topics_.colour : topics_.depth) + ": " +
+                  (stream == ImageStream::kColor ? topics_.color : topics_.depth) + ": " +
                   error.what());
     }
   }
@@ -160,7 +160,7 @@ void BagSource::findPairs(const Index& index) {
 
 double BagSource::pairOffset() const {
   std::vector<double> offsets;
-  for (const Pair& pair : pairs_) offsets.push_back(pair.depth.stamp - pair.colour.stamp);
+  for (const Pair& pair : pairs_) offsets.push_back(pair.depth.stamp - pair.color.stamp);
   const auto middle = offsets.begin() + static_cast<std::ptrdiff_t>(offsets.size() / 2);
   std::nth_element(offsets.begin(), middle, offsets.end());
   return *middle;
@@ -169,19 +169,19 @@ double BagSource::pairOffset() const {
 void BagSource::tellPairOffset() {
   const double offset = pairOffset();
   if (std::abs(offset) < kNotedPairOffset) return;
-  tell(fmt::format("depth is stamped {:.1f} ms {} than the colour images that it is paired with",
+  tell(fmt::format("depth is stamped {:.1f} ms {} than the color images that it is paired with",
                    1000.0 * std::abs(offset), offset > 0.0 ? "later" : "earlier"));
 }
 
 void BagSource::requirePairs(const Index& index) const {
   if (!pairs_.empty()) return;
   const std::string offset = index.clock_offset
-                                 ? "; depth that comes with a colour image is stamped " +
+                                 ? "; depth that comes with a color image is stamped " +
                                        std::to_string(*index.clock_offset) + " s later"
                                  : "";
-  throw Error("no depth image is within 20 ms of a colour image (" +
-              std::to_string(index.stamps(ImageStream::kColour).size()) + " colour images on " +
-              topics_.colour + ", " + std::to_string(index.stamps(ImageStream::kDepth).size()) +
+  throw Error("no depth image is within 20 ms of a color image (" +
+              std::to_string(index.stamps(ImageStream::kColor).size()) + " color images on " +
+              topics_.color + ", " + std::to_string(index.stamps(ImageStream::kDepth).size()) +
               " depth images on " + topics_.depth + ")" + offset);
 }
 
@@ -198,33 +198,33 @@ void BagSource::take(const FrameRange& range) {
 
 /// @param is_depth_chosen  the topic of depth was named by the user, who may know better
 void BagSource::findDepthGeometry(bool is_depth_chosen) {
-  T_colour_depth_.reset();
+  T_color_depth_.reset();
   const Pair& pair = pairs_.front();
-  const std::string colour = pair.colour.recorded.read<HeaderOnly>()->header.frame_id;
+  const std::string color = pair.color.recorded.read<HeaderOnly>()->header.frame_id;
   const std::string depth = pair.depth.recorded.read<HeaderOnly>()->header.frame_id;
-  if (!isUnregistered(colour, depth, topics_.depth)) return;
-  T_colour_depth_ = findTransform(*recording_, colour, depth);
-  if (T_colour_depth_ && !depth_calibrations_.empty()) {
-    tell("depth on " + topics_.depth + " is registered to colour here");
+  if (!isUnregistered(color, depth, topics_.depth)) return;
+  T_color_depth_ = findTransform(*recording_, color, depth);
+  if (T_color_depth_ && !depth_calibrations_.empty()) {
+    tell("depth on " + topics_.depth + " is registered to color here");
     return;
   }
-  const std::string missing = describeMissingGeometry(
-      colour, depth, cameraInfoBeside(topics_.depth), !depth_calibrations_.empty());
+  const std::string missing = describeMissingGeometry(color, depth, cameraInfoBeside(topics_.depth),
+                                                      !depth_calibrations_.empty());
   if (!is_depth_chosen)
     throw Error(missing + "; if it is registered all the same, say --depth " + topics_.depth);
-  T_colour_depth_.reset();
+  T_color_depth_.reset();
   tell(missing + "; it is taken as registered");
 }
 
 ImagePair BagSource::messagesOf(const Pair& pair) {
   if (!clock_fault_.empty()) throw Error(clock_fault_);
   ImagePair messages;
-  messages.colour = readImage(pair.colour.recorded);
+  messages.color = readImage(pair.color.recorded);
   messages.depth = readImage(pair.depth.recorded);
-  messages.camera_info = calibrations_.at(pair.colour.stamp);
-  if (T_colour_depth_) {
+  messages.camera_info = calibrations_.at(pair.color.stamp);
+  if (T_color_depth_) {
     messages.depth_geometry =
-        DepthGeometry{depth_calibrations_.at(pair.depth.stamp), *T_colour_depth_};
+        DepthGeometry{depth_calibrations_.at(pair.depth.stamp), *T_color_depth_};
   }
   return messages;
 }
@@ -249,17 +249,17 @@ FrameSource::Status BagSource::next(Frame& frame, FrameFault& fault) {
     fault.reason = error.what();
   }
   starts_anew_after_fault_ = starts_anew_;
-  fault.text = recording_->name() + ", frame of stamp " + std::to_string(pair.colour.stamp) + ": " +
+  fault.text = recording_->name() + ", frame of stamp " + std::to_string(pair.color.stamp) + ": " +
                fault.reason;
   return Status::kSkipped;
 }
 
-double BagSource::depthUnitsPerMetre() const {
-  constexpr double kMillimetres = 1000.0;
-  constexpr double kOfMetres = 5000.0;
+double BagSource::depthUnitsPerMeter() const {
+  constexpr double kMillimeters = 1000.0;
+  constexpr double kOfMeters = 5000.0;
   return readImage(pairs_.front().depth.recorded)->toDepthImage().image.type() == CV_16UC1
-             ? kMillimetres
-             : kOfMetres;
+             ? kMillimeters
+             : kOfMeters;
 }
 
 Trajectory BagSource::groundTruth() const {

@@ -17,7 +17,7 @@
 
 namespace mivo {
 
-/// Frames of one bag, or of several that were recorded together: each colour image with the depth
+/// Frames of one bag, or of several that were recorded together: each color image with the depth
 /// image nearest in time, 20 ms away at most, in the order in which they were recorded and by the
 /// rules of the node (StampPairer, FrameOrder). Read message by message, never the whole bag.
 class BagSource : public FrameSource {
@@ -38,18 +38,18 @@ class BagSource : public FrameSource {
   Status next(Frame& frame, FrameFault& fault) override;
   bool startsAnew() const override { return starts_anew_; }
 
-  std::string depthUnit() const override { return "16UC1 is millimetres, 32FC1 metres"; }
+  std::string depthUnit() const override { return "16UC1 is millimeters, 32FC1 meters"; }
   const std::string& notice() const override { return notice_; }
   const std::map<std::string, std::size_t>& leftOut() const override { return left_out_; }
 
   const RgbdTopics& topics() const { return topics_; }
   const Recording& recording() const { return *recording_; }
 
-  /// s, stamp of depth minus that of colour in a pair, the median.
+  /// s, stamp of depth minus that of color in a pair, the median.
   double pairOffset() const;
   /// s, see ClockOffset; nothing when it cannot be told.
   std::optional<double> clockOffset() const { return clock_offset_; }
-  /// How many of colour differ.
+  /// How many of color differ.
   std::size_t calibrations() const { return calibrations_.size(); }
 
   /// Leaves out the frame that next() would read.
@@ -61,11 +61,11 @@ class BagSource : public FrameSource {
   /// Images of one pair, for those who want more than a Frame. They refer to messages that live
   /// until the next call. Throws Error when a message is malformed.
   MessageImages read(const Pair& pair);
-  /// Of the colours of a pair, as the tracker sees them.
-  cv::Mat toGrey(const ColourImage& colour) { return frames_->toGrey(colour); }
+  /// Of the colors of a pair, as the tracker sees them.
+  cv::Mat toGray(const ColorImage& color) { return frames_->toGray(color); }
 
-  /// 1000 for depth in millimetres. Depth in metres has no unit of its own: 5000, as TUM stores it.
-  double depthUnitsPerMetre() const;
+  /// 1000 for depth in millimeters. Depth in meters has no unit of its own: 5000, as TUM stores it.
+  double depthUnitsPerMeter() const;
 
   /// Path of the topic /ground_truth; empty when there is none.
   Trajectory groundTruth() const;
@@ -88,7 +88,7 @@ class BagSource : public FrameSource {
   RgbdTopics topics_;
   CalibrationHistory calibrations_;
   CalibrationHistory depth_calibrations_;
-  std::optional<Eigen::Isometry3d> T_colour_depth_;  // of depth that has to be registered
+  std::optional<Eigen::Isometry3d> T_color_depth_;  // of depth that has to be registered
   std::unique_ptr<FrameMaker> frames_;
   Camera camera_;
   std::string notice_;

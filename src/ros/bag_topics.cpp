@@ -16,7 +16,7 @@ constexpr char kCameraInfoType[] = "sensor_msgs/CameraInfo";
 
 struct Pair {
   const char* layout;
-  const char* colour;
+  const char* color;
   const char* depth;
 };
 
@@ -65,9 +65,9 @@ std::string findImage(const BagContents& contents, const std::string& topic) {
   return {};
 }
 
-/// Where drivers and tools put the calibration of a colour topic.
-std::string findCameraInfo(const BagContents& contents, const std::string& colour) {
-  const std::string base = withoutTransport(colour);
+/// Where drivers and tools put the calibration of a color topic.
+std::string findCameraInfo(const BagContents& contents, const std::string& color) {
+  const std::string base = withoutTransport(color);
   std::string throttled = base;
   const std::string image = "_image";
   const std::size_t at = throttled.rfind(image);
@@ -108,7 +108,7 @@ std::string withoutTransport(const std::string& topic) {
 
 std::string layoutOf(const RgbdTopics& topics) {
   for (const Pair& pair : kKnownPairs) {
-    if (withoutTransport(topics.colour) == pair.colour &&
+    if (withoutTransport(topics.color) == pair.color &&
         withoutTransport(topics.depth) == pair.depth) {
       return pair.layout;
     }
@@ -127,13 +127,13 @@ const std::vector<BagLayout>& bagLayouts() {
        {"/camera/rgb/image_raw", "/camera/depth_registered/image_raw", "/camera/rgb/camera_info"},
        false,
        false,
-       frames::kColourOptical},
+       frames::kColorOptical},
       {"rtabmap",
        {"/camera/rgb/image_rect_color", "/camera/depth_registered/image_raw",
         "/camera/rgb/camera_info"},
        false,
        true,
-       frames::kColourOptical},
+       frames::kColorOptical},
       {"realsense",
        {"/camera/color/image_raw", "/camera/aligned_depth_to_color/image_raw",
         "/camera/color/camera_info"},
@@ -155,7 +155,7 @@ const BagLayout& bagLayout(const std::string& name) {
 
 RgbdTopics findTopics(const BagContents& contents, const RgbdTopics& given) {
   RgbdTopics wanted = given;
-  for (std::string* topic : {&wanted.colour, &wanted.depth}) {
+  for (std::string* topic : {&wanted.color, &wanted.depth}) {
     if (topic->empty()) continue;
     const std::string found = findImage(contents, *topic);
     if (found.empty()) refuse(contents, "the bag has no images on the topic " + *topic);
@@ -163,32 +163,31 @@ RgbdTopics findTopics(const BagContents& contents, const RgbdTopics& given) {
   }
   RgbdTopics topics = wanted;
   for (const Pair& pair : kKnownPairs) {
-    if (!topics.colour.empty() && !topics.depth.empty()) break;
-    const std::string colour =
-        wanted.colour.empty() ? findImage(contents, pair.colour) : wanted.colour;
+    if (!topics.color.empty() && !topics.depth.empty()) break;
+    const std::string color = wanted.color.empty() ? findImage(contents, pair.color) : wanted.color;
     const std::string depth = wanted.depth.empty() ? findImage(contents, pair.depth) : wanted.depth;
-    if (colour.empty() || depth.empty()) continue;
-    // A colour topic of the user's choice goes with the depth topic of its own driver first.
-    if (!wanted.colour.empty() && withoutTransport(wanted.colour) != pair.colour &&
+    if (color.empty() || depth.empty()) continue;
+    // A color topic of the user's choice goes with the depth topic of its own driver first.
+    if (!wanted.color.empty() && withoutTransport(wanted.color) != pair.color &&
         std::any_of(std::begin(kKnownPairs), std::end(kKnownPairs), [&](const Pair& other) {
-          return withoutTransport(wanted.colour) == other.colour &&
+          return withoutTransport(wanted.color) == other.color &&
                  !findImage(contents, other.depth).empty();
         })) {
       continue;
     }
-    topics.colour = colour;
+    topics.color = color;
     topics.depth = depth;
   }
-  if (topics.colour.empty() || topics.depth.empty()) {
+  if (topics.color.empty() || topics.depth.empty()) {
     refuse(contents,
-           "no known pair of colour and depth topics; name them with --rgb and "
+           "no known pair of color and depth topics; name them with --rgb and "
            "--depth");
   }
-  if (topics.camera_info.empty()) topics.camera_info = findCameraInfo(contents, topics.colour);
+  if (topics.camera_info.empty()) topics.camera_info = findCameraInfo(contents, topics.color);
   const auto info = contents.find(topics.camera_info);
   if (info == contents.end() || info->second != kCameraInfoType) {
     refuse(contents, topics.camera_info.empty()
-                         ? "no camera_info beside " + topics.colour + "; name it with --camera-info"
+                         ? "no camera_info beside " + topics.color + "; name it with --camera-info"
                          : "the bag has no camera_info on the topic " + topics.camera_info);
   }
   if (topics.depth_info.empty()) topics.depth_info = findCameraInfo(contents, topics.depth);

@@ -10,7 +10,7 @@ namespace mivo {
 /// The topics of an RGB-D camera. A compressed topic carries its transport at the end of its name:
 /// /compressed or /compressedDepth.
 struct RgbdTopics {
-  std::string colour;
+  std::string color;
   std::string depth;
   std::string camera_info;
   std::string depth_info = "";  ///< calibration of depth; empty where there is none
@@ -23,7 +23,7 @@ std::string withoutTransport(const std::string& topic);
 struct BagLayout {
   std::string name;  ///< tum, openni2, rtabmap, realsense
   RgbdTopics topics;
-  bool float_depth;  ///< depth as 32FC1 in metres, otherwise 16UC1 in millimetres
+  bool float_depth;  ///< depth as 32FC1 in meters, otherwise 16UC1 in millimeters
   bool rectified;    ///< the images have no distortion
   std::string optical_frame;
 };
@@ -42,7 +42,7 @@ const BagLayout& bagLayout(const std::string& name);
 using BagContents = std::map<std::string, std::string>;
 
 /// Fills in what is empty in `wanted`, where a topic without transport means a compressed form of
-/// it, too: the first known pair of colour and depth topics that the bag
+/// it, too: the first known pair of color and depth topics that the bag
 /// holds, raw or compressed, registered ones first, and the camera_info beside the topics. Throws
 /// Error, listing the image topics of the bag, when nothing fits or a wanted topic is not there.
 RgbdTopics findTopics(const BagContents& contents, const RgbdTopics& wanted);

@@ -65,17 +65,17 @@ sensor_msgs::CompressedImage toPng(const std_msgs::Header& header, const cv::Mat
   return message;
 }
 
-/// Metres, by the rule of the tracker for integer depth: both give the same bits.
-cv::Mat toMetres(const cv::Mat& depth, double unit) {
-  cv::Mat metres(depth.size(), CV_32FC1);
+/// Meters, by the rule of the tracker for integer depth: both give the same bits.
+cv::Mat toMeters(const cv::Mat& depth, double unit) {
+  cv::Mat meters(depth.size(), CV_32FC1);
   for (int y = 0; y < depth.rows; ++y) {
     for (int x = 0; x < depth.cols; ++x) {
       const std::uint16_t raw = depth.at<std::uint16_t>(y, x);
-      metres.at<float>(y, x) = raw == 0 ? std::numeric_limits<float>::quiet_NaN()
+      meters.at<float>(y, x) = raw == 0 ? std::numeric_limits<float>::quiet_NaN()
                                         : static_cast<float>(raw) * static_cast<float>(unit);
     }
   }
-  return metres;
+  return meters;
 }
 
 }  // namespace
@@ -143,14 +143,14 @@ void BagWriter::checkImage(const cv::Mat& image, const char* what) const {
               std::to_string(camera_.camera.width) + " x " + std::to_string(camera_.camera.height));
 }
 
-void BagWriter::writeColour(double stamp, const cv::Mat& image) {
-  checkImage(image, "the colour image");
+void BagWriter::writeColor(double stamp, const cv::Mat& image) {
+  checkImage(image, "the color image");
   const std::string encoding = image.type() == CV_8UC1    ? encodings::MONO8
                                : image.type() == CV_16UC1 ? encodings::MONO16
                                : image.type() == CV_8UC3  ? encodings::RGB8
                                                           : std::string();
   if (encoding.empty()) {
-    throw Error("the colour image is neither grey nor has it three channels of 8 bits");
+    throw Error("the color image is neither gray nor has it three channels of 8 bits");
   }
   if (!has_static_) {
     writeStatic(stamp, frames::kCameraLink, layout_.optical_frame, opticalInLink());
@@ -162,14 +162,14 @@ void BagWriter::writeColour(double stamp, const cv::Mat& image) {
   camera_info_.header = header;
   write(layout_.topics.camera_info, stamp, camera_info_);
   if (images_ == BagImages::kCompressed) {
-    write(layout_.topics.colour + "/compressed", stamp,
+    write(layout_.topics.color + "/compressed", stamp,
           toPng(header, image,
                 encoding + "; png compressed " + (image.channels() == 3 ? "bgr8" : ""), 0));
     return;
   }
   cv::Mat stored = image;
   if (encoding == encodings::RGB8) cv::cvtColor(image, stored, cv::COLOR_BGR2RGB);
-  write(layout_.topics.colour, stamp, toRaw(header, stored, encoding));
+  write(layout_.topics.color, stamp, toRaw(header, stored, encoding));
 }
 
 void BagWriter::writeDepth(double stamp, const cv::Mat& depth) {
@@ -178,22 +178,22 @@ void BagWriter::writeDepth(double stamp, const cv::Mat& depth) {
   std_msgs::Header header;
   header.stamp = toTime(stamp);
   header.frame_id = layout_.optical_frame;
-  const double unit = 1.0 / camera_.depth_units_per_metre;
+  const double unit = 1.0 / camera_.depth_units_per_meter;
   if (layout_.float_depth && images_ == BagImages::kRaw) {
-    write(layout_.topics.depth, stamp, toRaw(header, toMetres(depth, unit), encodings::TYPE_32FC1));
+    write(layout_.topics.depth, stamp, toRaw(header, toMeters(depth, unit), encodings::TYPE_32FC1));
     return;
   }
-  cv::Mat millimetres = depth;
-  constexpr double kMillimetresPerMetre = 1000.0;
-  if (camera_.depth_units_per_metre != kMillimetresPerMetre) {
-    depth.convertTo(millimetres, CV_16U, unit * kMillimetresPerMetre);
+  cv::Mat millimeters = depth;
+  constexpr double kMillimetersPerMeter = 1000.0;
+  if (camera_.depth_units_per_meter != kMillimetersPerMeter) {
+    depth.convertTo(millimeters, CV_16U, unit * kMillimetersPerMeter);
   }
   if (images_ == BagImages::kCompressed) {
     write(layout_.topics.depth + "/compressedDepth", stamp,
-          toPng(header, millimetres, "16UC1; compressedDepth", kDepthHeaderBytes));
+          toPng(header, millimeters, "16UC1; compressedDepth", kDepthHeaderBytes));
     return;
   }
-  write(layout_.topics.depth, stamp, toRaw(header, millimetres, encodings::TYPE_16UC1));
+  write(layout_.topics.depth, stamp, toRaw(header, millimeters, encodings::TYPE_16UC1));
 }
 
 bool BagWriter::writeGroundTruth(const Trajectory& truth, double first_stamp) {

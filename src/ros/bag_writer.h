@@ -29,14 +29,14 @@ class BagWriter {
 
   /// Writes the image and the calibration. `image`: CV_8UC1, CV_16UC1, or CV_8UC3 in the order
   /// blue, green, red. Throws Error for another type, a wrong size, or when the disk is full.
-  void writeColour(double stamp, const cv::Mat& image);
+  void writeColor(double stamp, const cv::Mat& image);
 
-  /// `depth`: CV_16UC1 in the camera's depth units. Layouts with integer depth hold millimetres:
-  /// other units are rounded. Throws Error as writeColour.
+  /// `depth`: CV_16UC1 in the camera's depth units. Layouts with integer depth hold millimeters:
+  /// other units are rounded. Throws Error as writeColor.
   void writeDepth(double stamp, const cv::Mat& depth);
 
   /// Writes the whole path on /ground_truth in the frame "world", latched. With a pose within 20 ms
-  /// of `first_stamp`, the first colour image's, the static transform from "world" to "odom" is
+  /// of `first_stamp`, the first color image's, the static transform from "world" to "odom" is
   /// written too, so that path and odometry lie upon each other; returns whether it was.
   bool writeGroundTruth(const Trajectory& truth, double first_stamp);
 

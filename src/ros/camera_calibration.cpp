@@ -11,7 +11,7 @@
 namespace mivo {
 namespace {
 
-// Of an Xtion's colour camera, as its driver reports it; rad.
+// Of an Xtion's color camera, as its driver reports it; rad.
 constexpr double kUsualFieldOfView = 1.0144686;
 
 // camera_info_manager accepts only letters, digits and underscores.

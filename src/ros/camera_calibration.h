@@ -34,7 +34,7 @@ class CameraCalibration {
   bool has_warned_of_size_ = false;
 };
 
-/// Square pixels, principal point in the middle of the image (pixel centres at integers). An
+/// Square pixels, principal point in the middle of the image (pixel centers at integers). An
 /// unknown field of view is assumed to be that of an Xtion.
 sensor_msgs::CameraInfo cameraInfoFromFieldOfView(int width, int height, double field_of_view);
 

@@ -9,7 +9,7 @@
 
 namespace mivo {
 
-/// Static transforms from the link to the colour and depth cameras and their optical frames, with
+/// Static transforms from the link to the color and depth cameras and their optical frames, with
 /// the distances between the lenses of an Xtion Pro Live as ROS drivers have them.
 std::vector<geometry_msgs::TransformStamped> cameraTransforms(const CameraParameters& parameters);
 

@@ -37,7 +37,7 @@ CameraParameters readCameraParameters(const ros::NodeHandle& node) {
   readParameter(node, "depth_unit", device.depth_unit, 0.0, 1.0);
   checkDepthUnit(device.depth_unit);
   readParameter(node, "depth_registration", device.registration);
-  readParameter(node, "depth_synchronisation", device.synchronise);
+  readParameter(node, "depth_synchronization", device.synchronize);
   readParameter(node, "repeat", device.repeat);
   readParameter(node, "warm_up_images", parameters.times.warm_up_images, 0, 1000);
   readParameter(node, "frame_prefix", parameters.frame_prefix);

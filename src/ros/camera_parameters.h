@@ -13,13 +13,13 @@ namespace mivo {
 /// are in config/OpenNI2.cfg.
 struct CameraParameters {
   DeviceRequest device;                 ///< parameters device, width, height, rate, depth_unit (m),
-                                        ///< depth_registration, depth_synchronisation, repeat
+                                        ///< depth_registration, depth_synchronization, repeat
   SessionTimes times;                   ///< parameter warm_up_images
   std::string frame_prefix = "camera";  ///< of all frames: camera_link, camera_rgb_frame, ...
   std::string rgb_camera_info_url;      ///< empty: ~/.ros/camera_info/NAME.yaml when there is one
   std::string depth_camera_info_url;    ///< used only without registration
   bool publish_tf = true;               ///< static transforms of the camera's frames
-  double pair_tolerance = 0.0;  ///< s, between colour and depth of a pair; 0: 0.4 of the period
+  double pair_tolerance = 0.0;  ///< s, between color and depth of a pair; 0: 0.4 of the period
 
   std::string linkFrame() const { return frame_prefix + "_link"; }
   std::string rgbFrame() const { return frame_prefix + "_rgb_frame"; }

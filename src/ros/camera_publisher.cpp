@@ -17,10 +17,10 @@ namespace {
 constexpr std::uint32_t kQueueSize =
     5;                                  // images that wait for a slow subscriber of another process
 constexpr std::size_t kMaxWaiting = 4;  // images that wait for their partner
-// Stamps of a pair that differ by less are those of one exposure: both get the colour's, so that
-// exact synchronisers find them.
+// Stamps of a pair that differ by less are those of one exposure: both get the color's, so that
+// exact synchronizers find them.
 constexpr std::uint64_t kSameExposure = 1000;  // microseconds
-constexpr double kMillimetre = 0.001;
+constexpr double kMillimeter = 0.001;
 constexpr double kUnitPrecision = 1e-9;
 constexpr double kMicrosecondsPerSecond = 1e6;
 
@@ -37,16 +37,16 @@ void copyRows(const ImageView& view, std::size_t row_bytes, std::vector<std::uin
   }
 }
 
-void convertToMetres(const ImageView& view, std::vector<std::uint8_t>& data) {
+void convertToMeters(const ImageView& view, std::vector<std::uint8_t>& data) {
   const auto width = static_cast<std::size_t>(view.width);
   data.resize(width * static_cast<std::size_t>(view.height) * sizeof(float));
-  auto* metres = reinterpret_cast<float*>(data.data());
+  auto* meters = reinterpret_cast<float*>(data.data());
   const auto unit = static_cast<float>(view.depth_unit);
   for (int y = 0; y < view.height; ++y) {
     const auto* row = reinterpret_cast<const std::uint16_t*>(
         view.data + static_cast<std::size_t>(y) * view.stride);
     for (std::size_t x = 0; x < width; ++x) {
-      *metres++ =
+      *meters++ =
           row[x] == 0 ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(row[x]) * unit;
     }
   }
@@ -59,7 +59,7 @@ PairingOptions pairingOptions(double tolerance) {
   options.max_difference = tolerance + 0.5 / kMicrosecondsPerSecond;
   options.capacity = kMaxWaiting;
   options.time_jump = 0.0;  // the device's clock went back
-  // The tolerance is less than half a period, or neighbours would be taken for partners. So nothing
+  // The tolerance is less than half a period, or neighbors would be taken for partners. So nothing
   // that is still to come fits better than an image within it.
   options.min_gap = 2.0 * options.max_difference;
   return options;
@@ -84,15 +84,15 @@ sensor_msgs::ImagePtr toMessage(const ImageView& view) {
     message->encoding = sensor_msgs::image_encodings::RGB8;
     row_bytes = 3 * width;
     copyRows(view, row_bytes, message->data);
-  } else if (std::abs(view.depth_unit - kMillimetre) < kUnitPrecision) {
+  } else if (std::abs(view.depth_unit - kMillimeter) < kUnitPrecision) {
     message->encoding = sensor_msgs::image_encodings::TYPE_16UC1;
     row_bytes = sizeof(std::uint16_t) * width;
     copyRows(view, row_bytes, message->data);
   } else {
-    // 16UC1 means millimetres to everybody: other units go out in metres.
+    // 16UC1 means millimeters to everybody: other units go out in meters.
     message->encoding = sensor_msgs::image_encodings::TYPE_32FC1;
     row_bytes = sizeof(float) * width;
-    convertToMetres(view, message->data);
+    convertToMeters(view, message->data);
   }
   message->step = static_cast<std::uint32_t>(row_bytes);
   return message;
@@ -110,7 +110,7 @@ CameraPublisher::CameraPublisher(ros::NodeHandle node, const CameraParameters& p
           pairingOptions(parameters.pair_tolerance),
           [this](PublishedImage& color, PublishedImage& depth) { publishPair(color, depth); },
           [this](ImageStream stream, PublishedImage& image) {
-            publishSingle(stream == ImageStream::kColour ? StreamKind::kColor : StreamKind::kDepth,
+            publishSingle(stream == ImageStream::kColor ? StreamKind::kColor : StreamKind::kDepth,
                           image);
           }) {
   if (!registered_) {
@@ -174,7 +174,7 @@ void CameraPublisher::add(const ImageView& view, std::int64_t stamp) {
   message->header.frame_id = is_color ? color_frame_ : depth_frame_;
   message->header.stamp = toRosTime(stamp);
   if (color_wanted_ && depth_wanted_) {
-    pairer_.push(is_color ? ImageStream::kColour : ImageStream::kDepth,
+    pairer_.push(is_color ? ImageStream::kColor : ImageStream::kDepth,
                  static_cast<double>(view.device_stamp) / kMicrosecondsPerSecond,
                  {std::move(message), view.device_stamp});
   } else {

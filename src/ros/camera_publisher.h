@@ -19,17 +19,17 @@
 
 namespace mivo {
 
-/// The message of an image: rgb8; depth 16UC1 when it is in millimetres, otherwise 32FC1 in metres
+/// The message of an image: rgb8; depth 16UC1 when it is in millimeters, otherwise 32FC1 in meters
 /// with NaN for no reading. The only copy of the pixels.
 sensor_msgs::ImagePtr toMessage(const ImageView& view);
 
 struct PairStatistics {
   std::int64_t pairs = 0;
   std::int64_t singles = 0;  ///< images without a partner
-  double offset = 0.0;       ///< s, depth minus colour, of the last pair
+  double offset = 0.0;       ///< s, depth minus color, of the last pair
 };
 
-/// Publishes images with their camera_info, colour and depth of a pair together, as pointers:
+/// Publishes images with their camera_info, color and depth of a pair together, as pointers:
 /// nodelets in the same manager receive them without a copy.
 class CameraPublisher {
  public:

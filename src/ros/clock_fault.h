@@ -15,7 +15,7 @@ namespace mivo {
 inline std::string describeClockFault(double offset) {
   if (ClockOffset::isBelievable(offset)) return {};
   return fmt::format(
-      "colour and depth that come together are stamped {:.1f} s apart (depth {}): two clocks; "
+      "color and depth that come together are stamped {:.1f} s apart (depth {}): two clocks; "
       "pairs of equal stamps would be of different times",
       std::abs(offset), offset > 0.0 ? "later" : "earlier");
 }

@@ -21,7 +21,7 @@ using Bytes = std::vector<std::uint8_t>;
 
 constexpr std::array<std::uint8_t, 8> kPngSignature = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
 constexpr std::array<std::uint8_t, 2> kJpegSignature = {0xff, 0xd8};
-// Header of compressedDepth: int32 format, then the two float parameters of the quantisation.
+// Header of compressedDepth: int32 format, then the two float parameters of the quantization.
 constexpr std::size_t kDepthHeaderBytes = 12;
 
 template <typename Signature>
@@ -50,13 +50,13 @@ ChannelOrder channelOrder(const std::string& format) {
   return rgb ? ChannelOrder::kRgb : ChannelOrder::kBgr;
 }
 
-/// Metres of a quantised inverse depth, as compressedDepth stores 32FC1.
-cv::Mat dequantise(const cv::Mat& quantised, float a, float b) {
-  cv::Mat depth(quantised.size(), CV_32FC1);
-  for (int y = 0; y < quantised.rows; ++y) {
-    const auto* from = quantised.ptr<std::uint16_t>(y);
+/// Meters of a quantized inverse depth, as compressedDepth stores 32FC1.
+cv::Mat dequantize(const cv::Mat& quantized, float a, float b) {
+  cv::Mat depth(quantized.size(), CV_32FC1);
+  for (int y = 0; y < quantized.rows; ++y) {
+    const auto* from = quantized.ptr<std::uint16_t>(y);
     auto* to = depth.ptr<float>(y);
-    for (int x = 0; x < quantised.cols; ++x) {
+    for (int x = 0; x < quantized.cols; ++x) {
       to[x] = from[x] == 0 ? std::numeric_limits<float>::quiet_NaN()
                            : a / (static_cast<float>(from[x]) - b);
     }
@@ -145,7 +145,7 @@ cv::Mat decodeRvl(const Bytes& data) {
 
 }  // namespace
 
-ColourImage toColourImage(const sensor_msgs::CompressedImage& message) {
+ColorImage toColorImage(const sensor_msgs::CompressedImage& message) {
   const cv::Mat image = decode(message, 0);
   const std::string encoding = message.format.substr(0, message.format.find(';'));
   if (image.channels() != 1 || encoding.rfind("bayer_", 0) != 0) {
@@ -153,8 +153,8 @@ ColourImage toColourImage(const sensor_msgs::CompressedImage& message) {
   }
   sensor_msgs::Image mosaic;
   cv_bridge::CvImage(message.header, encoding, image).toImageMsg(mosaic);
-  const ColourImage colour = toColourImage(mosaic);
-  return {colour.image.clone(), colour.order};
+  const ColorImage color = toColorImage(mosaic);
+  return {color.image.clone(), color.order};
 }
 
 DepthImage toDepthImage(const sensor_msgs::CompressedImage& message) {
@@ -171,10 +171,10 @@ DepthImage toDepthImage(const sensor_msgs::CompressedImage& message) {
   }
   if (plain || message.format.compare(0, 5, "32FC1") != 0) return {image, 0.001};
 
-  std::array<float, 2> quantisation{};
-  std::memcpy(quantisation.data(), message.data.data() + sizeof(std::int32_t),
-              sizeof(quantisation));
-  return {dequantise(image, quantisation[0], quantisation[1]), 0.001};
+  std::array<float, 2> quantization{};
+  std::memcpy(quantization.data(), message.data.data() + sizeof(std::int32_t),
+              sizeof(quantization));
+  return {dequantize(image, quantization[0], quantization[1]), 0.001};
 }
 
 }  // namespace mivo

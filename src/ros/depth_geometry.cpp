@@ -33,12 +33,12 @@ void add(const RecordedMessage& message, tf2::BufferCore& tree) {
 
 }  // namespace
 
-bool isUnregistered(const std::string& colour_frame, const std::string& depth_frame,
+bool isUnregistered(const std::string& color_frame, const std::string& depth_frame,
                     const std::string& depth_topic) {
   constexpr std::array<const char*, 4> kRegistered = {"registered", "aligned", "to_rgb",
                                                       "to_color"};
-  return withoutSlash(colour_frame) != withoutSlash(depth_frame) && !depth_frame.empty() &&
-         !colour_frame.empty() &&
+  return withoutSlash(color_frame) != withoutSlash(depth_frame) && !depth_frame.empty() &&
+         !color_frame.empty() &&
          std::none_of(kRegistered.begin(), kRegistered.end(), [&](const char* word) {
            return depth_topic.find(word) != std::string::npos;
          });
@@ -65,10 +65,10 @@ std::optional<Eigen::Isometry3d> findTransform(const Recording& recording,
   return toIsometry(tree.lookupTransform(to, from, ros::Time(0)).transform);
 }
 
-std::string describeMissingGeometry(const std::string& colour_frame, const std::string& depth_frame,
+std::string describeMissingGeometry(const std::string& color_frame, const std::string& depth_frame,
                                     const std::string& info_topic, bool has_calibration) {
-  return "depth (in the frame " + depth_frame + ") is not registered to colour (in " +
-         colour_frame + "), and " +
+  return "depth (in the frame " + depth_frame + ") is not registered to color (in " + color_frame +
+         "), and " +
          (has_calibration ? "tf has no transform between the two"
                           : "there is no calibration of depth on " + info_topic);
 }

@@ -9,9 +9,9 @@
 
 namespace mivo {
 
-/// Whether depth is seen by another camera than colour, and not registered to it: its frame is
+/// Whether depth is seen by another camera than color, and not registered to it: its frame is
 /// another, and its topic's name does not say that it is registered, aligned or "to_rgb".
-bool isUnregistered(const std::string& colour_frame, const std::string& depth_frame,
+bool isUnregistered(const std::string& color_frame, const std::string& depth_frame,
                     const std::string& depth_topic);
 
 /// The topic of the calibration that a driver puts beside an image topic.
@@ -24,7 +24,7 @@ std::optional<Eigen::Isometry3d> findTransform(const Recording& recording,
                                                const std::string& source);
 
 /// Why depth cannot be registered: what is missing.
-std::string describeMissingGeometry(const std::string& colour_frame, const std::string& depth_frame,
+std::string describeMissingGeometry(const std::string& color_frame, const std::string& depth_frame,
                                     const std::string& info_topic, bool has_calibration);
 
 }  // namespace mivo

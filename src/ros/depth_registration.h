@@ -10,21 +10,21 @@
 
 namespace mivo {
 
-/// Depth in another size than colour's, by a whole factor: CV_32FC1 in metres, of the size of the
-/// colour image. Where four readings lie on one surface what is between them lies on its plane,
+/// Depth in another size than color's, by a whole factor: CV_32FC1 in meters, of the size of the
+/// color image. Where four readings lie on one surface what is between them lies on its plane,
 /// elsewhere the nearest one is taken. Nothing is done, and the image returned, for equal sizes or
 /// another ratio.
 DepthImage enlargeDepth(const DepthImage& depth, const cv::Size& size);
 
-/// Depth of a camera beside the colour camera, as the colour camera sees it: each reading becomes a
+/// Depth of a camera beside the color camera, as the color camera sees it: each reading becomes a
 /// point, and of those that fall on a pixel the nearest counts, for it hides the others (as
 /// depth_image_proc/register does it).
 class DepthRegistration {
  public:
-  /// @param T_colour_depth  pose of the depth camera in the colour camera
+  /// @param T_color_depth  pose of the depth camera in the color camera
   /// Throws Error when the image has not the size of its camera.
-  DepthImage toColour(const DepthImage& depth, const Camera& depth_camera,
-                      const Camera& colour_camera, const Eigen::Isometry3d& T_colour_depth);
+  DepthImage toColor(const DepthImage& depth, const Camera& depth_camera,
+                     const Camera& color_camera, const Eigen::Isometry3d& T_color_depth);
 
  private:
   void findRays(const Camera& depth_camera);

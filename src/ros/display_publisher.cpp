@@ -35,7 +35,7 @@ void addFrustum(const Camera& camera, const Eigen::Isometry3d& T,
   const double right = camera.width - 0.5;
   const double bottom = camera.height - 0.5;
   const Eigen::Vector2d corners[] = {{-0.5, -0.5}, {right, -0.5}, {right, bottom}, {-0.5, bottom}};
-  const geometry_msgs::Point centre = toPoint(T.translation());
+  const geometry_msgs::Point center = toPoint(T.translation());
   geometry_msgs::Point ends[4];
   for (int i = 0; i < 4; ++i) {
     // A corner that the lens has no ray for is drawn where a pinhole would see it.
@@ -44,7 +44,7 @@ void addFrustum(const Camera& camera, const Eigen::Isometry3d& T,
     ends[i] = toPoint(T * (kFrustumDepth * camera.ray(corners[i]).value_or(pinhole)));
   }
   for (int i = 0; i < 4; ++i) {
-    points.insert(points.end(), {centre, ends[i], ends[i], ends[(i + 1) % 4]});
+    points.insert(points.end(), {center, ends[i], ends[i], ends[(i + 1) % 4]});
   }
 }
 
@@ -107,16 +107,16 @@ void DisplayPublisher::publishCloud(const Odometry& odometry,
       sensor_msgs::PointField::FLOAT32);
   modifier.resize(points.size());
   sensor_msgs::PointCloud2Iterator<float> position(*message, "x");
-  sensor_msgs::PointCloud2Iterator<std::uint8_t> colour(*message, "rgb");
+  sensor_msgs::PointCloud2Iterator<std::uint8_t> color(*message, "rgb");
   sensor_msgs::PointCloud2Iterator<float> intensity(*message, "intensity");
   for (const CloudPoint& point : points) {
     const Eigen::Vector3f p =
         (T_odom_keyframe * Eigen::Vector3d(point.x, point.y, point.z)).cast<float>();
     std::copy_n(p.data(), 3, &position[0]);
-    std::fill_n(&colour[0], 3, static_cast<std::uint8_t>(point.intensity));
+    std::fill_n(&color[0], 3, static_cast<std::uint8_t>(point.intensity));
     *intensity = point.intensity;
     ++position;
-    ++colour;
+    ++color;
     ++intensity;
   }
   cloud_.publish(message);

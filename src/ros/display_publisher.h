@@ -22,7 +22,7 @@ class DisplayPublisher {
 
   /// @param keyframe      number of the current keyframe
   /// @param T_odom_world  world of the tracker in the published frame
-  /// @param header        of the colour image
+  /// @param header        of the color image
   void publish(const Odometry& odometry, int keyframe, const Eigen::Isometry3d& T_odom_world,
                const std_msgs::Header& header);
 

@@ -55,16 +55,16 @@ FrameInput::FrameInput(const ros::NodeHandle& private_node, const NodeParameters
       callback_(std::move(callback)),
       pairer_(
           pairingOptions(parameters_),
-          [this](ImageMessageConstPtr& colour, ImageMessageConstPtr& depth) {
+          [this](ImageMessageConstPtr& color, ImageMessageConstPtr& depth) {
             ImagePair pair;
-            pair.colour = colour;
+            pair.color = color;
             pair.depth = depth;
             deliver(std::move(pair));
           },
           [this](ImageStream stream, ImageMessageConstPtr&) { countSingle(stream); }),
-      colour_(private_node, topicBeside(private_node, topics::kColour), parameters.rgb_transport,
-              subscriberQueue(parameters),
-              [this](const ImageMessageConstPtr& message) { take(ImageStream::kColour, message); }),
+      color_(private_node, topicBeside(private_node, topics::kColor), parameters.rgb_transport,
+             subscriberQueue(parameters),
+             [this](const ImageMessageConstPtr& message) { take(ImageStream::kColor, message); }),
       depth_(private_node, topicBeside(private_node, topics::kDepth), parameters.depth_transport,
              subscriberQueue(parameters),
              [this](const ImageMessageConstPtr& message) { take(ImageStream::kDepth, message); }),
@@ -75,7 +75,7 @@ FrameInput::FrameInput(const ros::NodeHandle& private_node, const NodeParameters
       next_warning_(kSilence) {
   ros::NodeHandle handle(private_node);
   const std::string camera_info_topic = topicBeside(private_node, topics::kCameraInfo);
-  countOf(ImageStream::kColour).topic = colour_.topic();
+  countOf(ImageStream::kColor).topic = color_.topic();
   countOf(ImageStream::kDepth).topic = depth_.topic();
   camera_info_count_.topic = handle.resolveName(camera_info_topic);
   const boost::function<void(const sensor_msgs::CameraInfoConstPtr&)> take_info =
@@ -87,7 +87,7 @@ FrameInput::FrameInput(const ros::NodeHandle& private_node, const NodeParameters
   depth_info_subscriber_ = handle.subscribe<sensor_msgs::CameraInfo>(
       cameraInfoBeside(depth_.topic()), static_cast<std::uint32_t>(parameters.queue_size),
       take_depth_info);
-  colour_.subscribe(private_node);
+  color_.subscribe(private_node);
   depth_.subscribe(private_node);
   timer_ = handle.createWallTimer(ros::WallDuration(kWatchPeriod),
                                   [this](const ros::WallTimerEvent&) { watch(); });
@@ -136,10 +136,10 @@ void FrameInput::deliver(ImagePair pair) {
 /// Pairs whose calibration is there, in their order; all of them `at_once` whatever may come.
 void FrameInput::giveOut(bool at_once) {
   while (!waiting_.empty() &&
-         (at_once || !expectsCalibration(waiting_.front().colour->header.stamp))) {
+         (at_once || !expectsCalibration(waiting_.front().color->header.stamp))) {
     ImagePair pair = std::move(waiting_.front());
     waiting_.pop_front();
-    last_given_ = pair.colour->header.stamp;
+    last_given_ = pair.color->header.stamp;
     complete(std::move(pair));
   }
 }
@@ -160,7 +160,7 @@ void FrameInput::complete(ImagePair pair) {
       keepEarly(std::move(pair));
       return;
     }
-    pair.camera_info = calibrations_.at(toSeconds(pair.colour->header.stamp));
+    pair.camera_info = calibrations_.at(toSeconds(pair.color->header.stamp));
     pair.depth_info = depth_calibrations_.at(toSeconds(pair.depth->header.stamp));
     const std::optional<double> offset = clock_offset_.seconds();
     if (offset) pair.fault = describeClockFault(*offset);
@@ -183,11 +183,11 @@ void FrameInput::watch() {
   bool idle = false;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    const ros::WallTime last = std::max(countOf(ImageStream::kColour).last_arrival,
+    const ros::WallTime last = std::max(countOf(ImageStream::kColor).last_arrival,
                                         countOf(ImageStream::kDepth).last_arrival);
     idle = (ros::WallTime::now() - last).toSec() > kIdle;
   }
-  if (idle && pairer_.numWaiting(ImageStream::kColour) > 0 &&
+  if (idle && pairer_.numWaiting(ImageStream::kColor) > 0 &&
       pairer_.numWaiting(ImageStream::kDepth) > 0) {
     pairer_.flush();
   }
@@ -198,7 +198,7 @@ void FrameInput::watch() {
 
 void FrameInput::stop() {
   timer_.stop();
-  colour_.shutdown();
+  color_.shutdown();
   depth_.shutdown();
   camera_info_subscriber_.shutdown();
   depth_info_subscriber_.shutdown();
@@ -219,7 +219,7 @@ std::string FrameInput::explain(double seconds) const {
   std::string silent;
   std::string text;
   const std::pair<const InputCount*, std::uint32_t> inputs[] = {
-      {&countOf(ImageStream::kColour), colour_.publishers()},
+      {&countOf(ImageStream::kColor), color_.publishers()},
       {&countOf(ImageStream::kDepth), depth_.publishers()},
       {&camera_info_count_, camera_info_subscriber_.getNumPublishers()}};
   for (const auto& [count, publishers] : inputs) {
@@ -242,7 +242,7 @@ std::string FrameInput::explain(double seconds) const {
   if (!silent.empty()) {
     return fmt::format("no frame for {:.0f} s, no messages on: {}", seconds, silent) + text;
   }
-  const double difference = std::abs(countOf(ImageStream::kColour).last_stamp.toSec() -
+  const double difference = std::abs(countOf(ImageStream::kColor).last_stamp.toSec() -
                                      countOf(ImageStream::kDepth).last_stamp.toSec());
   return fmt::format(
              "no frame for {:.0f} s: images arrive, but the stamps of color and depth are not {}; "
@@ -257,7 +257,7 @@ std::string FrameInput::explain(double seconds) const {
 std::vector<InputCount> FrameInput::counts() const {
   const std::lock_guard<std::mutex> lock(mutex_);
   std::vector<InputCount> counts = {image_counts_[0], image_counts_[1], camera_info_count_};
-  counts[0].publishers = colour_.publishers();
+  counts[0].publishers = color_.publishers();
   counts[1].publishers = depth_.publishers();
   counts[2].publishers = camera_info_subscriber_.getNumPublishers();
   return counts;

@@ -29,7 +29,7 @@ struct InputCount {
   ros::WallTime last_arrival;         ///< zero: nothing yet
 };
 
-/// Subscribes to colour, depth and calibration, and pairs them by their stamps. ROS callbacks run
+/// Subscribes to color, depth and calibration, and pairs them by their stamps. ROS callbacks run
 /// in one thread, that of the node handle's queue; the other functions may be called from any
 /// thread.
 class FrameInput {
@@ -48,10 +48,10 @@ class FrameInput {
   /// a while and this was not reported recently; otherwise empty.
   std::string silence();
 
-  /// Colour, depth, calibration.
+  /// Color, depth, calibration.
   std::vector<InputCount> counts() const;
 
-  const std::string& colourTopic() const { return colour_.topic(); }
+  const std::string& colorTopic() const { return color_.topic(); }
   const std::string& depthTopic() const { return depth_.topic(); }
 
  private:
@@ -76,7 +76,7 @@ class FrameInput {
   NodeParameters parameters_;
   PairCallback callback_;
   StampPairer<ImageMessageConstPtr> pairer_;  // used by the queue's thread only
-  ImagePort colour_;
+  ImagePort color_;
   ImagePort depth_;
   ros::Subscriber camera_info_subscriber_;
   ros::Subscriber depth_info_subscriber_;

@@ -12,13 +12,13 @@ namespace {
 
 // Of the nearer reading: a step in depth that is the edge of something.
 constexpr float kDepthStep = 0.08F;
-// Grey levels per pixel: one strong edge counts no more than this.
+// Gray levels per pixel: one strong edge counts no more than this.
 constexpr int kMostGradient = 40;
 constexpr std::size_t kEnoughEdges = 500;
 // Mean gradient at the best shift over that at all: less is chance.
 constexpr double kClearPeak = 1.3;
 
-cv::Mat metres(const Frame& frame) {
+cv::Mat meters(const Frame& frame) {
   cv::Mat depth;
   frame.depth.convertTo(depth, CV_32FC1, frame.depth.type() == CV_16UC1 ? frame.depth_unit : 1.0);
   return depth;
@@ -48,7 +48,7 @@ FrameLook lookAt(const Frame& frame) {
 void EdgeOffset::addRows(const cv::Mat& image, const cv::Mat& depth, Score& score) {
   for (int y = 0; y < depth.rows; ++y) {
     const auto* z = depth.ptr<float>(y);
-    const auto* grey = image.ptr<std::uint8_t>(y);
+    const auto* gray = image.ptr<std::uint8_t>(y);
     for (int x = kReach; x + kReach + 1 < depth.cols; ++x) {
       const float nearer = std::min(z[x], z[x + 1]);
       if (!(nearer > 0.0F) || !(std::abs(z[x + 1] - z[x]) > kDepthStep * nearer)) continue;
@@ -56,14 +56,14 @@ void EdgeOffset::addRows(const cv::Mat& image, const cv::Mat& depth, Score& scor
       ++score.edges;
       for (int d = -kReach; d <= kReach; ++d) {
         score.sum[static_cast<std::size_t>(d + kReach)] +=
-            std::min(kMostGradient, std::abs(grey[x + 1 + d] - grey[x + d]));
+            std::min(kMostGradient, std::abs(gray[x + 1 + d] - gray[x + d]));
       }
     }
   }
 }
 
 void EdgeOffset::add(const Frame& frame) {
-  const cv::Mat depth = metres(frame);
+  const cv::Mat depth = meters(frame);
   addRows(frame.image, depth, columns_);
   addRows(frame.image.t(), depth.t(), rows_);
 }

@@ -12,7 +12,7 @@ namespace mivo {
 /// What one frame of a recording looks like.
 struct FrameLook {
   double stamp = 0.0;           ///< s
-  double brightness = 0.0;      ///< mean grey level
+  double brightness = 0.0;      ///< mean gray level
   double sharpness = 0.0;       ///< of edges, against the contrast: falls with motion and focus
   double depth_coverage = 0.0;  ///< part of the pixels with a reading
   double median_depth = 0.0;    ///< m; 0: no reading
@@ -20,13 +20,13 @@ struct FrameLook {
 
 FrameLook lookAt(const Frame& frame);
 
-/// How far the edges of depth lie from those of colour, over several frames: in a recording whose
+/// How far the edges of depth lie from those of color, over several frames: in a recording whose
 /// depth is registered both are at the same place.
 class EdgeOffset {
  public:
   void add(const Frame& frame);
 
-  /// Pixels by which the edges of depth have to be moved to those of colour, to the right and down;
+  /// Pixels by which the edges of depth have to be moved to those of color, to the right and down;
   /// nothing where there are too few edges, or no shift fits better than the others.
   struct Shift {
     double x;

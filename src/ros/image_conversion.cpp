@@ -17,7 +17,7 @@ namespace {
 
 namespace encodings = sensor_msgs::image_encodings;
 
-constexpr double kMillimetre = 0.001;
+constexpr double kMillimeter = 0.001;
 
 [[noreturn]] void refuse(const std::string& what) {
   throw Error(what);
@@ -27,7 +27,7 @@ bool isYuyv(const std::string& encoding) {
   return encoding == "yuyv" || encoding == "yuv422_yuy2";
 }
 
-/// Luminance in full, followed by colour in half the resolution.
+/// Luminance in full, followed by color in half the resolution.
 bool isTwoPlanes(const std::string& encoding) {
   return encoding == "nv12" || encoding == "nv21";
 }
@@ -142,7 +142,7 @@ bool isOneOf(const std::string& encoding, std::initializer_list<const char*> nam
 
 }  // namespace
 
-ColourImage toColourImage(const sensor_msgs::Image& message) {
+ColorImage toColorImage(const sensor_msgs::Image& message) {
   const std::string& encoding = message.encoding;
   if (isYuyv(encoding)) return {fromYuyv(message), ChannelOrder::kBgr};
   if (isTwoPlanes(encoding)) return {fromTwoPlanes(message), ChannelOrder::kBgr};
@@ -152,7 +152,7 @@ ColourImage toColourImage(const sensor_msgs::Image& message) {
                                                   "bgr16", "bgra16", "8UC3", "8UC4"});
   const bool mosaic = encodings::isBayer(encoding);
   if (!as_it_is && !mosaic && encoding != encodings::YUV422) {
-    refuse("colour image of encoding '" + encoding +
+    refuse("color image of encoding '" + encoding +
            "': expected mono8, mono16, rgb8, bgr8, rgba8, bgra8, rgb16, bgr16, 8UC3, bayer_*, "
            "yuv422, yuyv or nv12; is another topic connected to rgb/image?");
   }
@@ -169,11 +169,11 @@ DepthImage toDepthImage(const sensor_msgs::Image& message) {
   const bool integers = encoding == encodings::TYPE_16UC1 || encoding == encodings::MONO16;
   if (!integers && encoding != encodings::TYPE_32FC1) {
     refuse("depth image of encoding '" + encoding +
-           "': expected 16UC1 (millimetres) or 32FC1 (metres); is another topic connected to "
+           "': expected 16UC1 (millimeters) or 32FC1 (meters); is another topic connected to "
            "depth/image?");
   }
   checkSizes(message);
-  return {pixels(message), kMillimetre};
+  return {pixels(message), kMillimeter};
 }
 
 }  // namespace mivo

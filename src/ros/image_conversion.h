@@ -12,34 +12,34 @@ namespace mivo {
 
 /// Depth in the form required by Frame.
 struct DepthImage {
-  cv::Mat image;        ///< CV_16UC1 in `unit`, or CV_32FC1 in metres
-  double unit = 0.001;  ///< metres per step of a CV_16UC1 image
+  cv::Mat image;        ///< CV_16UC1 in `unit`, or CV_32FC1 in meters
+  double unit = 0.001;  ///< meters per step of a CV_16UC1 image
 };
 
-/// An image of the colour camera.
-struct ColourImage {
+/// An image of the color camera.
+struct ColorImage {
   cv::Mat image;  ///< CV_8U or CV_16U with 1, 3 or 4 channels
   ChannelOrder order = ChannelOrder::kBgr;
 };
 
-/// Image of a colour message: mono8, mono16, rgb8, bgr8, rgba8, bgra8 and the same with 16 bits,
+/// Image of a color message: mono8, mono16, rgb8, bgr8, rgba8, bgra8 and the same with 16 bits,
 /// 8UC1, 8UC3, 8UC4, bayer_*8 and bayer_*16, yuv422, yuyv, nv12, nv21.
 /// Avoids copies: the result may reference the message's pixels and must not outlive them. Throws
 /// Error, with the remedy, for another encoding or a message with inconsistent sizes.
-ColourImage toColourImage(const sensor_msgs::Image& message);
+ColorImage toColorImage(const sensor_msgs::Image& message);
 
 /// The same of a JPEG or PNG message of the transport "compressed"; a mosaic in it is demosaiced.
 /// Throws Error.
-ColourImage toColourImage(const sensor_msgs::CompressedImage& message);
+ColorImage toColorImage(const sensor_msgs::CompressedImage& message);
 
-/// Grey image of either message, of 16 bits the highest: toGrey(toColourImage(message)).
+/// Gray image of either message, of 16 bits the highest: toGray(toColorImage(message)).
 template <typename Message>
-cv::Mat toGreyImage(const Message& message) {
-  const ColourImage colour = toColourImage(message);
-  return toGrey(colour.image, colour.order);
+cv::Mat toGrayImage(const Message& message) {
+  const ColorImage color = toColorImage(message);
+  return toGray(color.image, color.order);
 }
 
-/// Depth of a message: 16UC1 or mono16 in millimetres, 32FC1 in metres, both byte orders. The
+/// Depth of a message: 16UC1 or mono16 in millimeters, 32FC1 in meters, both byte orders. The
 /// result refers to the message's pixels when they are in this machine's byte order. Throws Error.
 DepthImage toDepthImage(const sensor_msgs::Image& message);
 

@@ -25,8 +25,8 @@ struct ImageMessage {
   ros::WallTime arrival;  ///< in this node
 
   /// See the functions of the same names for messages.
-  ColourImage toColourImage() const {
-    return raw ? mivo::toColourImage(*raw) : mivo::toColourImage(*compressed);
+  ColorImage toColorImage() const {
+    return raw ? mivo::toColorImage(*raw) : mivo::toColorImage(*compressed);
   }
   DepthImage toDepthImage() const {
     return raw ? mivo::toDepthImage(*raw) : mivo::toDepthImage(*compressed);
@@ -44,24 +44,24 @@ inline ImageMessageConstPtr wrap(const sensor_msgs::CompressedImageConstPtr& mes
       ImageMessage{message->header, nullptr, message, ros::WallTime::now()});
 }
 
-/// Geometry of a depth camera that is not registered to the colour camera.
+/// Geometry of a depth camera that is not registered to the color camera.
 struct DepthGeometry {
   sensor_msgs::CameraInfoConstPtr camera_info;
-  Eigen::Isometry3d T_colour_depth;  ///< pose of the depth camera in the colour camera
+  Eigen::Isometry3d T_color_depth;  ///< pose of the depth camera in the color camera
 };
 
-/// A colour image, its depth image, and the calibration of both.
+/// A color image, its depth image, and the calibration of both.
 struct ImagePair {
-  ImageMessageConstPtr colour;
+  ImageMessageConstPtr color;
   ImageMessageConstPtr depth;
   sensor_msgs::CameraInfoConstPtr camera_info;
   sensor_msgs::CameraInfoConstPtr depth_info = nullptr;  ///< null where depth has none of its own
   std::string fault = "";  ///< why it cannot be believed; empty: it can
   std::optional<DepthGeometry> depth_geometry =
-      std::nullopt;  ///< nothing: depth is registered to colour
+      std::nullopt;  ///< nothing: depth is registered to color
 
   /// Arrival of the later one.
-  ros::WallTime arrival() const { return std::max(colour->arrival, depth->arrival); }
+  ros::WallTime arrival() const { return std::max(color->arrival, depth->arrival); }
 };
 
 }  // namespace mivo

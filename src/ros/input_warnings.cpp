@@ -30,17 +30,17 @@ void InputWarnings::lookAtClock(double age) {
 }
 
 void InputWarnings::lookAtFrames(const ImagePair& pair, TransformSource& transforms) {
-  const std_msgs::Header& colour = pair.colour->header;
+  const std_msgs::Header& color = pair.color->header;
   // In doubles: times that do not belong together may differ by more than a Duration holds.
-  lookAtClock(ros::Time::now().toSec() - colour.stamp.toSec());
+  lookAtClock(ros::Time::now().toSec() - color.stamp.toSec());
   const std::string& depth_frame = pair.depth->header.frame_id;
   if (parameters_.depth_registered == "auto" && !pair.depth_geometry &&
-      depth_frame != colour.frame_id && !has_warned_of_frames_) {
+      depth_frame != color.frame_id && !has_warned_of_frames_) {
     has_warned_of_frames_ = true;
     ROS_WARN(
         "color images have the frame_id %s, depth images %s: depth must be registered to the "
         "color camera (depth_registration of the driver, or depth_image_proc/register)",
-        colour.frame_id.c_str(), depth_frame.c_str());
+        color.frame_id.c_str(), depth_frame.c_str());
   }
   lookAtParent(transforms);
 }

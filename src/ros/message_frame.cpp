@@ -10,31 +10,31 @@ namespace mivo {
 DepthImage FrameMaker::depthOf(const ImagePair& pair, const Camera& camera, const cv::Size& size) {
   const DepthImage depth = pair.depth->toDepthImage();
   if (!pair.depth_geometry) return enlargeDepth(depth, size);
-  // Names of depth topics say rectified as those of colour do, but what a driver calls so has no
+  // Names of depth topics say rectified as those of color do, but what a driver calls so has no
   // distortion either way.
   const Camera depth_camera =
       toCamera(*pair.depth_geometry->camera_info, false, depth.image.size());
-  return registration_.toColour(depth, depth_camera, camera, pair.depth_geometry->T_colour_depth);
+  return registration_.toColor(depth, depth_camera, camera, pair.depth_geometry->T_color_depth);
 }
 
 MessageImages FrameMaker::read(const ImagePair& pair) {
   MessageImages images;
-  images.colour = pair.colour->toColourImage();
-  images.camera = toCamera(*pair.camera_info, rectified_, images.colour.image.size());
-  images.depth = depthOf(pair, images.camera, images.colour.image.size());
+  images.color = pair.color->toColorImage();
+  images.camera = toCamera(*pair.camera_info, rectified_, images.color.image.size());
+  images.depth = depthOf(pair, images.camera, images.color.image.size());
   return images;
 }
 
-cv::Mat FrameMaker::toGrey(const ColourImage& colour) {
-  return mivo::toGrey(colour.image, colour.order, grey_range_.include(colour.image));
+cv::Mat FrameMaker::toGray(const ColorImage& color) {
+  return mivo::toGray(color.image, color.order, gray_range_.include(color.image));
 }
 
 MessageFrame FrameMaker::make(const ImagePair& pair) {
   const MessageImages images = read(pair);
   MessageFrame result;
   result.camera = images.camera;
-  result.frame.stamp = toSeconds(pair.colour->header.stamp);
-  result.frame.image = toGrey(images.colour);
+  result.frame.stamp = toSeconds(pair.color->header.stamp);
+  result.frame.image = toGray(images.color);
   result.frame.depth = images.depth.image;
   result.frame.depth_unit = images.depth.unit;
   const std::string fault = findFault(result.frame, result.camera);

@@ -5,7 +5,7 @@
 #include "mivo/core/frame.h"
 #include "ros/depth_registration.h"
 #include "ros/image_message.h"
-#include "session/grey_range.h"
+#include "session/gray_range.h"
 
 namespace mivo {
 
@@ -15,11 +15,11 @@ struct MessageFrame {
   Frame frame;  ///< references the pixels of the messages
 };
 
-/// The content of a pair of messages, before conversion to grey.
+/// The content of a pair of messages, before conversion to gray.
 struct MessageImages {
   Camera camera;
-  ColourImage colour;
-  DepthImage depth;  ///< registered to the colour camera and of its size
+  ColorImage color;
+  DepthImage depth;  ///< registered to the color camera and of its size
 };
 
 /// Creates the frames of one camera from pairs of messages.
@@ -30,17 +30,17 @@ class FrameMaker {
   /// Throws Error with the reason when a message cannot be used or the messages do not match.
   MessageFrame make(const ImagePair& pair);
 
-  /// The same, with colour. Throws Error when a message cannot be used.
+  /// The same, with color. Throws Error when a message cannot be used.
   MessageImages read(const ImagePair& pair);
 
-  /// Grey image of a colour image; 16 bits are scaled by the range of the images so far.
-  cv::Mat toGrey(const ColourImage& colour);
+  /// Gray image of a color image; 16 bits are scaled by the range of the images so far.
+  cv::Mat toGray(const ColorImage& color);
 
  private:
   DepthImage depthOf(const ImagePair& pair, const Camera& camera, const cv::Size& size);
 
   bool rectified_;
-  GreyRange grey_range_;
+  GrayRange gray_range_;
   DepthRegistration registration_;
 };
 

@@ -29,7 +29,7 @@ struct NodeParameters {
       "raw";  ///< raw, compressed, compressedDepth, or any image_transport
   std::string depth_registered = "auto";  ///< to color: yes, no, or auto, by frames and topic
   int queue_size = 10;                    ///< messages that wait for their partner, per input
-  bool approximate_sync = true;  ///< otherwise the stamps of colour and depth must be equal
+  bool approximate_sync = true;           ///< otherwise the stamps of color and depth must be equal
   double sync_tolerance = kMaxPairDifference;  ///< s, largest difference of the stamps of a pair
   bool drop_frames = true;  ///< track the newest frame; otherwise all wait (for bags), and
                             ///< queue_size is at least 100

@@ -42,7 +42,7 @@ OdometryNode::OdometryNode(const ros::NodeHandle& node, const ros::NodeHandle& p
   ros::NodeHandle service_node = withQueue(private_node, service_queue_);
   input_ = std::make_unique<FrameInput>(withQueue(private_node, input_queue_), parameters_,
                                         [this](const ImagePair& pair) { enqueue(pair); });
-  frame_maker_.emplace(isRectifiedTopic(input_->colourTopic()));
+  frame_maker_.emplace(isRectifiedTopic(input_->colorTopic()));
   services_ =
       std::make_unique<OdometryServices>(service_node, static_cast<OdometryActions&>(*this));
   reconfigure_ = std::make_unique<ReconfigureServer>(
@@ -101,26 +101,25 @@ void OdometryNode::work() {
                         frames_.size());
     }
     if (has_reset_.exchange(false)) order_.restart();
-    if (!paused_) order_.push(toSeconds(pair->colour->header.stamp), *pair);
+    if (!paused_) order_.push(toSeconds(pair->color->header.stamp), *pair);
   }
   order_.flush();
 }
 
-/// Depth of a camera beside the colour camera is registered, as soon as it is known where that is.
+/// Depth of a camera beside the color camera is registered, as soon as it is known where that is.
 void OdometryNode::locateDepth(ImagePair& pair) {
-  const std::string& colour = pair.colour->header.frame_id;
+  const std::string& color = pair.color->header.frame_id;
   const std::string& depth = pair.depth->header.frame_id;
   const std::string& registered = parameters_.depth_registered;
-  const bool is_beside =
-      registered == "no" ||
-      (registered == "auto" && isUnregistered(colour, depth, input_->depthTopic()));
+  const bool is_beside = registered == "no" || (registered == "auto" &&
+                                                isUnregistered(color, depth, input_->depthTopic()));
   if (!pair.depth_info || !is_beside) return;
-  const std::optional<Eigen::Isometry3d> T_colour_depth = transforms_.between(colour, depth);
-  if (!T_colour_depth) {
+  const std::optional<Eigen::Isometry3d> T_color_depth = transforms_.between(color, depth);
+  if (!T_color_depth) {
     throw Error(
-        describeMissingGeometry(colour, depth, cameraInfoBeside(input_->depthTopic()), true));
+        describeMissingGeometry(color, depth, cameraInfoBeside(input_->depthTopic()), true));
   }
-  pair.depth_geometry = DepthGeometry{pair.depth_info, *T_colour_depth};
+  pair.depth_geometry = DepthGeometry{pair.depth_info, *T_color_depth};
 }
 
 void OdometryNode::process(ImagePair pair, bool is_new_time) {
@@ -141,8 +140,8 @@ void OdometryNode::process(ImagePair pair, bool is_new_time) {
 void OdometryNode::refuse(const ImagePair& pair, StampFault fault) {
   skipped_.add(describe(fault), ros::WallTime::now());
   FrameAccount account;
-  account.header = pair.colour->header;
-  account.pairing_offset = pair.depth->header.stamp.toSec() - pair.colour->header.stamp.toSec();
+  account.header = pair.color->header;
+  account.pairing_offset = pair.depth->header.stamp.toSec() - pair.color->header.stamp.toSec();
   const std::lock_guard<std::mutex> lock(mutex_);
   TrackingResult result = session_.result();
   result.reason = TrackingReason::kStaleStamp;
@@ -165,7 +164,7 @@ void OdometryNode::startTrajectory() {
 }
 
 void OdometryNode::track(const ImagePair& pair, const MessageFrame& input, double conversion_ms) {
-  const std_msgs::Header& header = pair.colour->header;
+  const std_msgs::Header& header = pair.color->header;
   const std::optional<Eigen::Isometry3d> T_base_camera =
       transforms_.baseCamera(header.frame_id, header.stamp);
   guess_.look(header.stamp,

@@ -13,7 +13,7 @@ geometry_msgs::Pose toPose(const Eigen::Isometry3d& T);
 geometry_msgs::Transform toTransform(const Eigen::Isometry3d& T);
 
 /// Throws Error for numbers that are not finite, or a quaternion whose length is not within a tenth
-/// of one; otherwise it is normalised.
+/// of one; otherwise it is normalized.
 Eigen::Isometry3d toIsometry(const geometry_msgs::Pose& pose);
 Eigen::Isometry3d toIsometry(const geometry_msgs::Transform& transform);
 

@@ -37,7 +37,7 @@ class SalvagedBag {
   /// In the order of the file.
   const std::vector<Message>& messages() const { return messages_; }
 
-  /// Serialised bytes of a message, which live until the next call.
+  /// Serialized bytes of a message, which live until the next call.
   const std::uint8_t* data(const Message& message) const;
 
   std::size_t damagedPlaces() const { return damaged_; }

@@ -16,7 +16,7 @@ class StateLog {
   bool add(const TrackingResult& result, const ros::WallTime& now);
 
  private:
-  TrackingState state_ = TrackingState::kInitialising;
+  TrackingState state_ = TrackingState::kInitializing;
   std::string reason_;  // logged last
   ros::WallTime told_;
 };

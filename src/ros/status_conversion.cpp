@@ -7,8 +7,8 @@ namespace {
 // The codes are part of the message's definition: they stay what they are when the core changes.
 std::uint8_t code(TrackingState state) {
   switch (state) {
-    case TrackingState::kInitialising:
-      return TrackingStatus::INITIALISING;
+    case TrackingState::kInitializing:
+      return TrackingStatus::INITIALIZING;
     case TrackingState::kTracking:
       return TrackingStatus::TRACKING;
     case TrackingState::kDegraded:

@@ -9,7 +9,7 @@ namespace mivo {
 
 /// The part of TrackingStatus that is known by the node, not by the tracker.
 struct FrameAccount {
-  std_msgs::Header header;  ///< of the colour image
+  std_msgs::Header header;  ///< of the color image
   std::uint64_t frames = 0;
   std::uint64_t skipped_frames = 0;
   std::uint64_t dropped_frames = 0;

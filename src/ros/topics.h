@@ -7,7 +7,7 @@ namespace mivo {
 namespace topics {
 
 // Inputs of the odometry.
-constexpr char kColour[] = "rgb/image";
+constexpr char kColor[] = "rgb/image";
 constexpr char kDepth[] = "depth/image";
 constexpr char kCameraInfo[] = "rgb/camera_info";
 
@@ -38,8 +38,8 @@ constexpr char kWorld[] = "world";     ///< frame of the ground truth
 constexpr char kOdometry[] = "odom";   ///< default of odom_frame
 constexpr char kBase[] = "base_link";  ///< default of base_frame
 constexpr char kCameraLink[] = "camera_link";
-constexpr char kColourFrame[] = "camera_rgb_frame";
-constexpr char kColourOptical[] = "camera_rgb_optical_frame";
+constexpr char kColorFrame[] = "camera_rgb_frame";
+constexpr char kColorOptical[] = "camera_rgb_optical_frame";
 
 }  // namespace frames
 }  // namespace mivo

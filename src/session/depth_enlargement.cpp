@@ -21,11 +21,11 @@ float interpolated(const cv::Mat& depth, double unit, float x, float y) {
   const int top = std::clamp(static_cast<int>(std::floor(y)), 0, std::max(0, rows - 2));
   const int nearest_x = std::clamp(static_cast<int>(std::lround(x)), 0, columns - 1);
   const int nearest_y = std::clamp(static_cast<int>(std::lround(y)), 0, rows - 1);
-  const float nearest = depthInMetres(depth, unit, nearest_x, nearest_y);
+  const float nearest = depthInMeters(depth, unit, nearest_x, nearest_y);
   if (columns < 2 || rows < 2 || std::isnan(nearest)) return nearest;
   const float corners[4] = {
-      depthInMetres(depth, unit, left, top), depthInMetres(depth, unit, left + 1, top),
-      depthInMetres(depth, unit, left, top + 1), depthInMetres(depth, unit, left + 1, top + 1)};
+      depthInMeters(depth, unit, left, top), depthInMeters(depth, unit, left + 1, top),
+      depthInMeters(depth, unit, left, top + 1), depthInMeters(depth, unit, left + 1, top + 1)};
   for (const float corner : corners) {
     if (!(std::abs(corner - nearest) <= kSameSurface * nearest)) return nearest;
   }
@@ -44,12 +44,12 @@ bool isWholeMultiple(const cv::Size& large, const cv::Size& small) {
   return factor > 1 && factor * small.width == large.width && factor * small.height == large.height;
 }
 
-float depthInMetres(const cv::Mat& depth, double unit, int x, int y) {
-  const float metres =
+float depthInMeters(const cv::Mat& depth, double unit, int x, int y) {
+  const float meters =
       depth.type() == CV_16UC1
           ? static_cast<float>(depth.at<std::uint16_t>(y, x)) * static_cast<float>(unit)
           : depth.at<float>(y, x);
-  return metres > 0.0F && std::isfinite(metres) ? metres : kNoReading;
+  return meters > 0.0F && std::isfinite(meters) ? meters : kNoReading;
 }
 
 cv::Mat enlargeDepth(const cv::Mat& depth, double unit, const cv::Size& size) {

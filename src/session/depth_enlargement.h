@@ -8,8 +8,8 @@ namespace mivo {
 /// Whether a size is another one times a whole number above 1.
 bool isWholeMultiple(const cv::Size& large, const cv::Size& small);
 
-/// A pixel of CV_32FC1 (m) or CV_16UC1 depth (steps of `unit` m) in metres; NaN for no reading.
-float depthInMetres(const cv::Mat& depth, double unit, int x, int y);
+/// A pixel of CV_32FC1 (m) or CV_16UC1 depth (steps of `unit` m) in meters; NaN for no reading.
+float depthInMeters(const cv::Mat& depth, double unit, int x, int y);
 
 /// Depth at a size that is a whole multiple of its own: CV_32FC1, m. Where four readings lie on one
 /// surface what is between them lies on its plane, elsewhere the nearest one is taken.

@@ -15,7 +15,7 @@ constexpr int kSampleStep = 8;  // pixels
 // readings >= this: enough to say how they are stored.
 constexpr std::size_t kEnoughReadings = 200;
 // Two depths of one surface differ by far less than this share of them from pixel to pixel, values
-// whose low bits stand for kilometres by more.
+// whose low bits stand for kilometers by more.
 constexpr double kJump = 0.1;
 // step / median > this: no sensor, at a distance at which it works, is so coarse; a Kinect at 8 m
 // comes to 0.02, 8 bits over 8 m to 0.02 at 1.5 m.
@@ -39,13 +39,13 @@ std::uint16_t rotatedLeft(std::uint16_t value) {
 }
 
 /// Two pixels beside each other, with readings.
-struct Neighbours {
+struct Neighbors {
   std::uint16_t left;
   std::uint16_t right;
 };
 
-std::vector<Neighbours> neighboursOf(const cv::Mat& depth) {
-  std::vector<Neighbours> pairs;
+std::vector<Neighbors> neighborsOf(const cv::Mat& depth) {
+  std::vector<Neighbors> pairs;
   for (int y = 0; y < depth.rows; y += kSampleStep) {
     const auto* const row = depth.ptr<std::uint16_t>(y);
     for (int x = 0; x + 1 < depth.cols; x += kSampleStep) {
@@ -55,10 +55,10 @@ std::vector<Neighbours> neighboursOf(const cv::Mat& depth) {
   return pairs;
 }
 
-/// Part of the neighbours that differ by more than kJump of the smaller.
+/// Part of the neighbors that differ by more than kJump of the smaller.
 template <typename Decode>
-double partOfJumps(const std::vector<Neighbours>& pairs, const Decode& decode) {
-  const auto jumps = [&](const Neighbours& pair) {
+double partOfJumps(const std::vector<Neighbors>& pairs, const Decode& decode) {
+  const auto jumps = [&](const Neighbors& pair) {
     const int a = decode(pair.left);
     const int b = decode(pair.right);
     return std::abs(a - b) > kJump * std::min(a, b);
@@ -68,9 +68,9 @@ double partOfJumps(const std::vector<Neighbours>& pairs, const Decode& decode) {
 }
 
 /// The least difference of two readings when it is coarse, otherwise 0; in depth units.
-double coarseStep(const std::vector<Neighbours>& pairs) {
+double coarseStep(const std::vector<Neighbors>& pairs) {
   std::vector<double> values;
-  for (const Neighbours& pair : pairs) values.push_back(pair.left);
+  for (const Neighbors& pair : pairs) values.push_back(pair.left);
   const double median = medianOf(values);
   std::sort(values.begin(), values.end());
   values.erase(std::unique(values.begin(), values.end()), values.end());
@@ -85,9 +85,9 @@ double coarseStep(const std::vector<Neighbours>& pairs) {
 DepthStorage examineDepthStorage(const Frame& frame) {
   DepthStorage storage;
   if (frame.depth.type() != CV_16UC1) return storage;
-  const std::vector<Neighbours> pairs = neighboursOf(frame.depth);
+  const std::vector<Neighbors> pairs = neighborsOf(frame.depth);
   if (pairs.size() < kEnoughReadings) return storage;
-  storage.is_multiple_of_8 = std::all_of(pairs.begin(), pairs.end(), [](const Neighbours& pair) {
+  storage.is_multiple_of_8 = std::all_of(pairs.begin(), pairs.end(), [](const Neighbors& pair) {
     return (pair.left | pair.right) % 8 == 0;
   });
   const double jumps = partOfJumps(pairs, [](std::uint16_t value) { return value; });

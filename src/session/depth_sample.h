@@ -19,7 +19,7 @@ struct DepthStorage {
   /// Three bits that are always 0: the values are multiples of 8, as when they were rotated to the
   /// left (SUN RGB-D, SUN3D).
   bool is_multiple_of_8 = false;
-  /// Neighbours lie far apart, and do not when the bits are rotated by three to the left.
+  /// Neighbors lie far apart, and do not when the bits are rotated by three to the left.
   bool is_rotated_right = false;
   /// m; the least difference of two readings, when it is a large part of the readings themselves:
   /// depth of 8 bits or fewer. Otherwise 0.

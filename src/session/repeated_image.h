@@ -7,16 +7,16 @@
 
 namespace mivo {
 
-/// Colour images that repeat the one before while the depth goes on: some drivers and recordings
+/// Color images that repeat the one before while the depth goes on: some drivers and recordings
 /// deliver the last image again when the next is late. Light and depth of such a frame are of
 /// different times.
 class RepeatedImage {
  public:
   /// Why such a frame is left out, the same for all.
   static constexpr const char* kReason =
-      "the colour image repeats the one before while the depth goes on";
+      "the color image repeats the one before while the depth goes on";
 
-  /// Whether the frame is one, in the order of the stream. Images of one grey (a covered lens), and
+  /// Whether the frame is one, in the order of the stream. Images of one gray (a covered lens), and
   /// frames that repeat the whole of the one before (a camera at rest, without noise) are none.
   bool check(const Frame& frame) {
     const bool is_repeated =

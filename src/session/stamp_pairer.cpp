@@ -3,22 +3,21 @@
 
 namespace mivo {
 
-std::vector<std::pair<std::size_t, std::size_t>> pairByStamp(const std::vector<double>& colour,
+std::vector<std::pair<std::size_t, std::size_t>> pairByStamp(const std::vector<double>& color,
                                                              const std::vector<double>& depth,
                                                              double max_difference) {
   std::vector<std::pair<std::size_t, std::size_t>> pairs;
   PairingOptions options;
   options.max_difference = max_difference;
-  options.capacity = colour.size() + depth.size();  // they are all here already
+  options.capacity = color.size() + depth.size();  // they are all here already
   StampPairer<std::size_t> pairer(
       options, [&](std::size_t& i, std::size_t& j) { pairs.emplace_back(i, j); },
       [](ImageStream, std::size_t&) {});
-  for (std::size_t i = 0, j = 0; i < colour.size() || j < depth.size();) {
-    const bool is_colour = j == depth.size() || (i < colour.size() && colour[i] <= depth[j]);
-    const double stamp = is_colour ? colour[i] : depth[j];
+  for (std::size_t i = 0, j = 0; i < color.size() || j < depth.size();) {
+    const bool is_color = j == depth.size() || (i < color.size() && color[i] <= depth[j]);
+    const double stamp = is_color ? color[i] : depth[j];
     pairer.advance(stamp);
-    pairer.push(is_colour ? ImageStream::kColour : ImageStream::kDepth, stamp,
-                is_colour ? i++ : j++);
+    pairer.push(is_color ? ImageStream::kColor : ImageStream::kDepth, stamp, is_color ? i++ : j++);
   }
   pairer.flush();
   return pairs;

@@ -15,12 +15,12 @@
 
 namespace mivo {
 
-/// Largest difference (s) of the stamps of a colour image and its depth, where no parameter says
+/// Largest difference (s) of the stamps of a color image and its depth, where no parameter says
 /// otherwise.
 constexpr double kMaxPairDifference = 0.02;
 
 /// The two streams of an RGB-D camera.
-enum class ImageStream { kColour, kDepth };
+enum class ImageStream { kColor, kDepth };
 
 /// How images are paired.
 struct PairingOptions {
@@ -36,14 +36,14 @@ struct PairingOptions {
   bool learns_gap = false;
 };
 
-/// Pairs colour and depth by their stamps, image by image: the rule of every input of mivo. Pairs
+/// Pairs color and depth by their stamps, image by image: the rule of every input of mivo. Pairs
 /// are those of decidePairs(); one goes out as soon as no image to come can fit better, in the
 /// order of the stamps, and an image without partner as soon as none can come. Images may come in
 /// any order; within a stream late ones are taken where they belong, as long as that is open.
 template <typename Item>
 class StampPairer {
  public:
-  using OnPair = std::function<void(Item& colour, Item& depth)>;
+  using OnPair = std::function<void(Item& color, Item& depth)>;
   using OnSingle = std::function<void(ImageStream stream, Item& item)>;
 
   StampPairer(const PairingOptions& options, OnPair on_pair, OnSingle on_single)
@@ -135,16 +135,16 @@ class StampPairer {
     for (std::size_t i = 0, j = 0; goes_on();) {
       if (is(fates.first, i, PairFate::Kind::kSingle)) {
         ++i;
-        giveSingle(ImageStream::kColour);
+        giveSingle(ImageStream::kColor);
       } else if (is(fates.second, j, PairFate::Kind::kSingle)) {
         ++j;
         giveSingle(ImageStream::kDepth);
       } else if (is(fates.first, i, PairFate::Kind::kPaired) && fates.first[i].partner == j) {
         ++i;
         ++j;
-        Item colour = takeFront(ImageStream::kColour);
+        Item color = takeFront(ImageStream::kColor);
         Item depth = takeFront(ImageStream::kDepth);
-        on_pair_(colour, depth);
+        on_pair_(color, depth);
       } else {
         return;
       }
@@ -169,9 +169,9 @@ class StampPairer {
   std::array<Queue, 2> queues_;
 };
 
-/// The same for two whole lists of stamps (s), each in order: pairs of numbers of colour and depth.
+/// The same for two whole lists of stamps (s), each in order: pairs of numbers of color and depth.
 std::vector<std::pair<std::size_t, std::size_t>> pairByStamp(
-    const std::vector<double>& colour, const std::vector<double>& depth,
+    const std::vector<double>& color, const std::vector<double>& depth,
     double max_difference = kMaxPairDifference);
 
 }  // namespace mivo

@@ -9,10 +9,10 @@ namespace mivo {
 namespace {
 
 // Paint, cloth or floor with hardly any structure, and no stains.
-int nearlyEven(SceneBuilder& b, const Reflectance& colour, double contrast) {
+int nearlyEven(SceneBuilder& b, const Reflectance& color, double contrast) {
   Material properties;
   properties.clean = true;
-  return b.material(plasterTexture(colour, contrast, b.nextSeed()), properties);
+  return b.material(plasterTexture(color, contrast, b.nextSeed()), properties);
 }
 
 void addFurniture(SceneBuilder& b) {
@@ -58,12 +58,12 @@ Scene makeBare(std::uint64_t seed) {
                  b.picture(paintingTexture(b.nextSeed()), 0.15F));
 
   b.scene.reference_point = {0.1F, 0.0F, 1.0F};
-  b.scene.viewpoint.centre = {-0.75F, 0.0F, 1.3F};
+  b.scene.viewpoint.center = {-0.75F, 0.0F, 1.3F};
   b.scene.viewpoint.reach = {0.5F, 0.7F, 0.3F};
   b.scene.viewpoint.yaw_reach = 0.5;
   b.scene.viewpoint.pitch_reach = 0.16;
   b.scene.viewpoint.pitch = -0.2;
-  b.scene.moving_lamp_centre = {0.95F, 0.0F, 1.55F};
+  b.scene.moving_lamp_center = {0.95F, 0.0F, 1.55F};
   b.scene.moving_lamp_reach = {0.3F, 1.2F, 0.4F};
   return std::move(b.scene);
 }

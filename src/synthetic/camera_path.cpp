@@ -56,7 +56,7 @@ CameraPath::CameraPath(const std::string& name, const Viewpoint& viewpoint, std:
     rotate((name == "rotation" ? 1.0 : kFastFactor) * kRotationSpeed);
     translate(Eigen::Vector3d::Constant(kSwaySpeed));
     for (Swing& swing : position_) {
-      swing.amplitude *= 0.15;  // sways by centimetres
+      swing.amplitude *= 0.15;  // sways by centimeters
       swing.rate /= 0.15;
     }
   } else if (name == "figure_of_eight") {
@@ -145,7 +145,7 @@ void CameraPath::addTremor() {
 
 Eigen::Isometry3d CameraPath::poseAt(double seconds) const {
   const double t = pace_ * seconds;
-  Eigen::Vector3d position = viewpoint_.centre;
+  Eigen::Vector3d position = viewpoint_.center;
   Eigen::Vector3d angles(0.0, viewpoint_.pitch, viewpoint_.roll);
   for (int i = 0; i < 3; ++i) {
     const auto axis = static_cast<std::size_t>(i);

@@ -20,7 +20,7 @@ namespace mivo {
 ///   figure_of_eight  both, along a lying eight across the view
 ///   fast_rotation    the rotation, four times as fast
 ///   slide            on and on in a direction of the seed at 0.15 to 0.35 m/s, turning at up to
-///                    20 deg/s, speeding up and slowing down; starts at the viewpoint's centre
+///                    20 deg/s, speeding up and slowing down; starts at the viewpoint's center
 ///
 /// All but `static` and `slide` have the small tremor of a hand. A pace other than 1 makes all of
 /// it faster or slower.

@@ -13,7 +13,7 @@ constexpr float kPanel = 0.6F;    // repeated exactly
 constexpr float kBar = 0.024F;
 constexpr int kPanels = 12;  // along each axis
 
-// Bars between panels of one colour, a little below them.
+// Bars between panels of one color, a little below them.
 void addGrid(SceneBuilder& b, int bar) {
   constexpr float kExtent = kPanel * static_cast<float>(kPanels);
   for (int k = 0; k <= kPanels; ++k) {
@@ -56,12 +56,12 @@ Scene makeCeiling(std::uint64_t seed) {
   addFittings(b);
 
   b.scene.reference_point = {0.6F, 0.0F, 1.0F};
-  b.scene.viewpoint.centre = {-0.3F, 0.0F, 1.1F};
+  b.scene.viewpoint.center = {-0.3F, 0.0F, 1.1F};
   b.scene.viewpoint.reach = {0.6F, 0.7F, 0.25F};
   b.scene.viewpoint.yaw_reach = 0.6;
   b.scene.viewpoint.pitch_reach = 0.15;
   b.scene.viewpoint.pitch = 1.0;
-  b.scene.moving_lamp_centre = {0.8F, 0.0F, 1.9F};
+  b.scene.moving_lamp_center = {0.8F, 0.0F, 1.9F};
   b.scene.moving_lamp_reach = {0.3F, 1.0F, 0.2F};
   return std::move(b.scene);
 }

@@ -69,12 +69,12 @@ Scene makeCorridor(std::uint64_t seed) {
   b.cylinder({0.0F, 0.0F, 0.0F}, 0.14F, 0.17F, 0.5F, b.picture(rugTexture(b.nextSeed()), 0.2F));
 
   b.scene.reference_point = {0.3F, 0.0F, 1.0F};
-  b.scene.viewpoint.centre = {-0.35F, -0.1F, 1.3F};
+  b.scene.viewpoint.center = {-0.35F, -0.1F, 1.3F};
   b.scene.viewpoint.reach = {0.3F, 0.9F, 0.3F};
   b.scene.viewpoint.yaw_reach = 0.6;
   b.scene.viewpoint.pitch_reach = 0.2;
   b.scene.viewpoint.pitch = -0.1;
-  b.scene.moving_lamp_centre = {0.85F, 0.0F, 1.5F};
+  b.scene.moving_lamp_center = {0.85F, 0.0F, 1.5F};
   b.scene.moving_lamp_reach = {0.2F, 1.1F, 0.4F};
   return std::move(b.scene);
 }
@@ -103,12 +103,12 @@ Scene makeWall(std::uint64_t seed) {
   }
 
   b.scene.reference_point = {0.0F, 0.0F, 1.0F};
-  b.scene.viewpoint.centre = {-0.4F, 0.0F, 1.35F};
+  b.scene.viewpoint.center = {-0.4F, 0.0F, 1.35F};
   b.scene.viewpoint.reach = {0.35F, 0.8F, 0.3F};
   b.scene.viewpoint.yaw_reach = 0.45;
   b.scene.viewpoint.pitch_reach = 0.15;
   b.scene.viewpoint.pitch = -0.05;
-  b.scene.moving_lamp_centre = {0.7F, 0.0F, 1.4F};
+  b.scene.moving_lamp_center = {0.7F, 0.0F, 1.4F};
   b.scene.moving_lamp_reach = {0.2F, 1.0F, 0.35F};
   return std::move(b.scene);
 }

@@ -18,7 +18,7 @@ constexpr float kEdgeHole = 0.5F;        // part of the pixels at an edge withou
 constexpr float kGrazingAlways = 0.06F;  // cosine below which nothing comes back ...
 constexpr float kGrazingNever = 0.16F;   // ... and above which all does
 constexpr float kShadowMargin = 0.5F;    // pixels
-constexpr int kNoiseCell = 3;  // pixels: matching windows make the noise of neighbours alike
+constexpr int kNoiseCell = 3;  // pixels: matching windows make the noise of neighbors alike
 
 // Normal noise that is alike within a few pixels: bilinear between random nodes, scaled back to
 // unit variance everywhere.
@@ -43,16 +43,16 @@ float smoothNormal(std::uint64_t seed, int x, int y) {
 }  // namespace
 
 DepthSensor::DepthSensor(const DepthSensorOptions& options, const Camera& camera)
-    : options_(options), width_(camera.width), colour_focal_(static_cast<float>(camera.fx)) {
+    : options_(options), width_(camera.width), color_focal_(static_cast<float>(camera.fx)) {
   if (!(options.focal_length > 0.0) || !(options.baseline > 0.0) || !(options.noise >= 0.0) ||
       !(options.disparity_step >= 0.0) || !(options.min_depth >= 0.0) ||
-      !(options.max_depth > options.min_depth) || !(options.units_per_metre > 0.0)) {
+      !(options.max_depth > options.min_depth) || !(options.units_per_meter > 0.0)) {
     throw Error(
         "depth sensor: focal length, baseline and units must be positive, noise and step not "
         "negative, the "
         "range in order");
   }
-  if (options.max_depth * options.units_per_metre > 65535.0) {
+  if (options.max_depth * options.units_per_meter > 65535.0) {
     throw Error("depth sensor: the greatest depth does not fit into 16 bits with these units");
   }
 }
@@ -76,7 +76,7 @@ double DepthSensor::deviation(double z) const {
 // Coming from the right, a surface that does not appear left of all others so far is hidden from
 // it.
 void DepthSensor::shadowRow(const float* depth, unsigned char* hole) const {
-  const float fb = colour_focal_ * static_cast<float>(options_.baseline);
+  const float fb = color_focal_ * static_cast<float>(options_.baseline);
   float leftmost = std::numeric_limits<float>::infinity();
   for (int x = width_ - 1; x >= 0; --x) {
     if (depth[x] <= 0.0F) {
@@ -130,7 +130,7 @@ cv::Mat DepthSensor::sense(const SurfaceImage& surface, std::uint64_t seed) cons
         }
         z = measured(z, options_.noise > 0.0 ? smoothNormal(seed, x, y) : 0.0F);
         if (z >= options_.min_depth && z <= options_.max_depth) {
-          out[x] = static_cast<std::uint16_t>(std::lround(z * options_.units_per_metre));
+          out[x] = static_cast<std::uint16_t>(std::lround(z * options_.units_per_meter));
         }
       }
     }

@@ -14,11 +14,11 @@ struct DepthSensorOptions {
   double focal_length = 575.0;    ///< f, pixels of the infrared camera
   double baseline = 0.075;        ///< b, m
   double noise = 0.06;            ///< standard deviation of the disparity, pixels; 0: none
-  double disparity_step = 0.125;  ///< pixels; 0: not quantised
+  double disparity_step = 0.125;  ///< pixels; 0: not quantized
   bool holes = true;       ///< at edges, in the projector's shadow, at grazing angles, on black
   double min_depth = 0.4;  ///< m; nothing is read outside
   double max_depth = 5.0;  ///< m
-  double units_per_metre = 5000.0;
+  double units_per_meter = 5000.0;
 };
 
 class DepthSensor {
@@ -41,7 +41,7 @@ class DepthSensor {
 
   DepthSensorOptions options_;
   int width_;
-  float colour_focal_;
+  float color_focal_;
 };
 
 }  // namespace mivo

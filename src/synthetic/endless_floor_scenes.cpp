@@ -20,7 +20,7 @@ Scene floorOf(SceneBuilder& b, std::uint64_t seed, int material) {
   b.place(0.0F, 0.0F, 0.0F, turn);
   b.levelPanel({0.0F, 0.0F, 0.0F}, kExtent, kExtent, true, material);
   hideLamps(b.scene);
-  b.scene.viewpoint.centre = {0.0, 0.0, 1.3};
+  b.scene.viewpoint.center = {0.0, 0.0, 1.3};
   b.scene.viewpoint.reach = {5.0, 5.0, 0.2};
   b.scene.viewpoint.yaw_reach = 0.6;
   b.scene.viewpoint.pitch_reach = 0.12;

@@ -37,7 +37,7 @@ void addPicture(SceneBuilder& b, double roll) {
 
 Scene finished(SceneBuilder& b, std::uint64_t seed, double distance) {
   hideLamps(b.scene);
-  b.scene.viewpoint.centre = {0.0, 0.0, kHeight};
+  b.scene.viewpoint.center = {0.0, 0.0, kHeight};
   b.scene.viewpoint.reach = {0.25 * distance, 5.0, 5.0};
   b.scene.viewpoint.yaw_reach = 0.35;
   b.scene.viewpoint.pitch_reach = 0.35;

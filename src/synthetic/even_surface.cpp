@@ -35,9 +35,9 @@ Scene withTexture(Scene scene, std::uint64_t seed) {
 
 void hideLamps(Scene& scene) {
   constexpr float kAway = -100.0F;  // m, behind the camera
-  for (Lamp& lamp : scene.lamps) lamp.centre = {kAway, 0.0F, 3.0F};
+  for (Lamp& lamp : scene.lamps) lamp.center = {kAway, 0.0F, 3.0F};
   scene.reference_point = {kAway, 0.0F, 0.0F};
-  scene.moving_lamp_centre = {kAway, 0.0F, 1.0F};
+  scene.moving_lamp_center = {kAway, 0.0F, 1.0F};
 }
 
 double rollOfSeed(std::uint64_t seed) {

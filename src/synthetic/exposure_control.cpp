@@ -11,7 +11,7 @@ namespace mivo {
 ExposureControl::ExposureControl(const ExposureControlOptions& options,
                                  const ExposureSetting& first)
     : options_(options), current_(first) {
-  if (options.delay < 1 || !(options.target_grey > 0.0 && options.target_grey < 255.0) ||
+  if (options.delay < 1 || !(options.target_gray > 0.0 && options.target_gray < 255.0) ||
       !(options.damping > 0.0 && options.damping <= 1.0) ||
       !(options.max_time >= options.min_time) || !(options.min_time > 0.0) ||
       !(options.max_gain >= 1.0)) {
@@ -22,11 +22,11 @@ ExposureControl::ExposureControl(const ExposureControlOptions& options,
   }
 }
 
-double ExposureControl::wantedProduct(double product, double mean_grey,
+double ExposureControl::wantedProduct(double product, double mean_gray,
                                       const Imager& imager) const {
-  // A black image does not tell how dark it is: half a grey level is the least that is assumed.
-  const double measured = imager.linear(std::max(mean_grey, 0.5));
-  const double wanted = product * imager.linear(options_.target_grey) / measured;
+  // A black image does not tell how dark it is: half a gray level is the least that is assumed.
+  const double measured = imager.linear(std::max(mean_gray, 0.5));
+  const double wanted = product * imager.linear(options_.target_gray) / measured;
   return std::clamp(wanted, options_.min_time, options_.max_time * options_.max_gain);
 }
 
@@ -35,11 +35,11 @@ ExposureSetting ExposureControl::split(double product) const {
   return {time, std::clamp(product / time, 1.0, options_.max_gain)};
 }
 
-void ExposureControl::advance(double mean_grey, const Imager& imager) {
+void ExposureControl::advance(double mean_gray, const Imager& imager) {
   if (!options_.automatic) {
     return;
   }
-  wanted_.push_back(wantedProduct(current_.product(), mean_grey, imager));
+  wanted_.push_back(wantedProduct(current_.product(), mean_gray, imager));
   if (wanted_.size() < static_cast<std::size_t>(options_.delay)) {
     return;
   }

@@ -17,7 +17,7 @@ struct ExposureSetting {
 struct ExposureControlOptions {
   bool automatic = false;    ///< otherwise the first setting stays
   int delay = 10;            ///< frames from a measurement to its effect, at least 1
-  double target_grey = 110;  ///< mean 8-bit value aimed at
+  double target_gray = 110;  ///< mean 8-bit value aimed at
   double damping = 0.5;      ///< part of the (logarithmic) way gone per frame, 0..1
   double min_time = 0.0005;  ///< s
   double max_time = 0.030;   ///< s; longer exposures are tried before gain
@@ -35,10 +35,10 @@ class ExposureControl {
   const ExposureSetting& current() const { return current_; }
 
   /// Reports the mean value of that frame and proceeds to the next one.
-  void advance(double mean_grey, const Imager& imager);
+  void advance(double mean_gray, const Imager& imager);
 
   /// time * gain that would bring the measured mean to the target.
-  double wantedProduct(double product, double mean_grey, const Imager& imager) const;
+  double wantedProduct(double product, double mean_gray, const Imager& imager) const;
 
   /// Divides a product into time (as long as allowed) and gain.
   ExposureSetting split(double product) const;

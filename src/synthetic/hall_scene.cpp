@@ -52,12 +52,12 @@ Scene makeHall(std::uint64_t seed) {
   addNearThings(b);
 
   b.scene.reference_point = {2.0F, 0.0F, 1.0F};
-  b.scene.viewpoint.centre = {0.0F, 0.0F, 1.4F};
+  b.scene.viewpoint.center = {0.0F, 0.0F, 1.4F};
   b.scene.viewpoint.reach = {0.6F, 0.7F, 0.3F};
   b.scene.viewpoint.yaw_reach = 0.5;
   b.scene.viewpoint.pitch_reach = 0.15;
   b.scene.viewpoint.pitch = -0.2;
-  b.scene.moving_lamp_centre = {2.0F, 0.0F, 1.8F};
+  b.scene.moving_lamp_center = {2.0F, 0.0F, 1.8F};
   b.scene.moving_lamp_reach = {0.3F, 1.5F, 0.4F};
   return std::move(b.scene);
 }

@@ -53,12 +53,12 @@ Scene makeHallway(std::uint64_t seed) {
   addStandingLamp(b);
 
   b.scene.reference_point = {0.0F, 0.0F, 1.0F};
-  b.scene.viewpoint.centre = {-0.5F, 0.0F, 1.35F};
+  b.scene.viewpoint.center = {-0.5F, 0.0F, 1.35F};
   b.scene.viewpoint.reach = {0.5F, 0.7F, 0.3F};
   b.scene.viewpoint.yaw_reach = 0.5;
   b.scene.viewpoint.pitch_reach = 0.16;
   b.scene.viewpoint.pitch = -0.1;
-  b.scene.moving_lamp_centre = {0.9F, 0.0F, 1.5F};
+  b.scene.moving_lamp_center = {0.9F, 0.0F, 1.5F};
   b.scene.moving_lamp_reach = {0.25F, 1.1F, 0.4F};
   return std::move(b.scene);
 }

@@ -51,18 +51,18 @@ cv::Mat Imager::expose(const cv::Mat& light, double scale, double gain, std::uin
   cv::Mat image(light.size(), CV_8UC(channels));
   const auto noise_unit = static_cast<float>(gain / options_.full_well);
   const auto read_variance = static_cast<float>(options_.read_noise * options_.read_noise);
-  const float centre_x = 0.5F * static_cast<float>(light.cols - 1);
-  const float centre_y = 0.5F * static_cast<float>(light.rows - 1);
-  const float corner2 = std::max(centre_x * centre_x + centre_y * centre_y, 1.0F);
+  const float center_x = 0.5F * static_cast<float>(light.cols - 1);
+  const float center_y = 0.5F * static_cast<float>(light.rows - 1);
+  const float corner2 = std::max(center_x * center_x + center_y * center_y, 1.0F);
   const auto loss = static_cast<float>(options_.vignetting) / corner2;
   const float* normal = gaussianTable();
   cv::parallel_for_(cv::Range(0, light.rows), [&](const cv::Range& range) {
     for (int y = range.start; y < range.end; ++y) {
       const auto* in = light.ptr<float>(y);
       auto* out = image.ptr<unsigned char>(y);
-      const float dy2 = (static_cast<float>(y) - centre_y) * (static_cast<float>(y) - centre_y);
+      const float dy2 = (static_cast<float>(y) - center_y) * (static_cast<float>(y) - center_y);
       for (int x = 0; x < light.cols; ++x) {
-        const float dx = static_cast<float>(x) - centre_x;
+        const float dx = static_cast<float>(x) - center_x;
         const float pixel_scale = static_cast<float>(scale) * (1.0F - loss * (dx * dx + dy2));
         const std::uint64_t bits =
             options_.noise ? hashOf(seed, static_cast<std::uint64_t>(y * light.cols + x)) : 0;
@@ -83,7 +83,7 @@ cv::Mat Imager::expose(const cv::Mat& light, double scale, double gain, std::uin
   return image;
 }
 
-double meanGrey(const cv::Mat& image) {
+double meanGray(const cv::Mat& image) {
   const cv::Scalar mean = cv::mean(image);
   double sum = 0.0;
   for (int c = 0; c < image.channels(); ++c) {

@@ -10,7 +10,7 @@ namespace mivo {
 /// How the 8-bit value depends on the light.
 enum class Transfer { kSrgb, kLinear };
 
-/// The chip of a colour camera. A pixel's signal s is its light in units of what saturates it; at
+/// The chip of a color camera. A pixel's signal s is its light in units of what saturates it; at
 /// gain g it holds n = s F / g electrons of a full well F, so that
 ///   s' = s + sqrt(n + r^2) g / F * normal,   value = round(255 transfer(clip(s', 0, 1))).
 struct ImagerOptions {
@@ -28,7 +28,7 @@ class Imager {
 
   const ImagerOptions& options() const { return options_; }
 
-  /// Digitises light: CV_32FC1 or CV_32FC3, times `scale` in units of saturation. The result is
+  /// Digitizes light: CV_32FC1 or CV_32FC3, times `scale` in units of saturation. The result is
   /// CV_8U with the same channels and depends on the seed, not on the number of threads.
   cv::Mat expose(const cv::Mat& light, double scale, double gain, std::uint64_t seed) const;
 
@@ -42,6 +42,6 @@ class Imager {
 };
 
 /// Mean of all pixels and channels of an 8-bit image, as an exposure meter sees it.
-double meanGrey(const cv::Mat& image);
+double meanGray(const cv::Mat& image);
 
 }  // namespace mivo

@@ -83,7 +83,7 @@ LightMap::LightMap(const Scene& scene, const RayCaster& caster, std::uint64_t se
 
 LightMap::Node LightMap::compute(const Scene& scene, const RayCaster& caster, const Patch& patch,
                                  float u, float v, std::uint64_t seed) const {
-  // The outermost nodes move inwards a little: on the very edge they would lie in the neighbour.
+  // The outermost nodes move inwards a little: on the very edge they would lie in the neighbor.
   const float inner_u = std::clamp(u, 0.002F, 0.998F);
   const float inner_v = std::clamp(v, 0.002F, 0.998F);
   const Eigen::Vector3f normal = patch.normal(inner_u, inner_v);
@@ -97,13 +97,13 @@ LightMap::Node LightMap::compute(const Scene& scene, const RayCaster& caster, co
   }
   for (int lamp = 0; lamp < kNumLamps; ++lamp) {
     const Lamp& l = scene.lamps[static_cast<std::size_t>(lamp)];
-    if ((l.centre - start).dot(normal) + l.half_x + l.half_y <= 0.0F || start.z() >= l.centre.z()) {
+    if ((l.center - start).dot(normal) + l.half_x + l.half_y <= 0.0F || start.z() >= l.center.z()) {
       continue;
     }
     for (int i = 0; i < kPacketSize; ++i) {  // 4 x 2 strata over the lamp's rectangle
       const float a = (static_cast<float>(i % 4) + shift_a) / 2.0F - 1.0F;
       const float b = (static_cast<float>(i / 4) + shift_b) - 1.0F;
-      packet.setDirection(i, l.centre + Eigen::Vector3f(a * l.half_x, b * l.half_y, 0.0F) - start);
+      packet.setDirection(i, l.center + Eigen::Vector3f(a * l.half_x, b * l.half_y, 0.0F) - start);
     }
     const auto blocked = caster.isBlocked(packet);
     node.visibility[lamp] =
@@ -119,7 +119,7 @@ LightMap::Node LightMap::compute(const Scene& scene, const RayCaster& caster, co
     const auto blocked = caster.isBlocked(packet);
     open += static_cast<int>(std::count(blocked.begin(), blocked.end(), false));
   }
-  // A closed place still gets light that was reflected by its neighbours.
+  // A closed place still gets light that was reflected by its neighbors.
   node.openness[0] = 0.35F + 0.65F * static_cast<float>(open) / kDirections;
   return node;
 }

@@ -12,7 +12,7 @@ namespace {
 struct OfficeMaterials {
   int partition;
   int desk;
-  int grey_metal;
+  int gray_metal;
   int black_plastic;
   int white;
   int seat;
@@ -24,7 +24,7 @@ OfficeMaterials makeMaterials(SceneBuilder& b) {
   m.partition =
       b.material(wovenTexture({0.36F, 0.27F, 0.22F}, {0.45F, 0.38F, 0.32F}, b.nextSeed()));
   m.desk = b.material(grainTexture({0.32F, 0.45F, 0.55F}, b.nextSeed()), glossy(0.35F, 5));
-  m.grey_metal = b.plain({0.32F, 0.32F, 0.31F}, 0.4F, 5);
+  m.gray_metal = b.plain({0.32F, 0.32F, 0.31F}, 0.4F, 5);
   m.black_plastic = b.plain({0.03F, 0.03F, 0.03F}, 0.3F, 5);
   m.white = b.plain({0.75F, 0.76F, 0.75F}, 0.3F, 6);
   m.seat = b.material(wovenTexture({0.06F, 0.33F, 0.26F}, {0.04F, 0.18F, 0.14F}, b.nextSeed()));
@@ -34,7 +34,7 @@ OfficeMaterials makeMaterials(SceneBuilder& b) {
 
 void addDesk(SceneBuilder& b, const OfficeMaterials& m, float x, float y, float yaw) {
   b.place(x, y, 0.0F, yaw);
-  b.table(1.5F, 0.7F, 0.73F, m.desk, m.grey_metal);
+  b.table(1.5F, 0.7F, 0.73F, m.desk, m.gray_metal);
   b.levelPanel({-0.18F, 0.05F, 0.755F}, 0.15F, 0.42F, true,
                b.picture(keyboardTexture(b.nextSeed())));
   b.box({-0.18F, 0.05F, 0.731F}, {0.16F, 0.43F, 0.018F}, m.black_plastic);
@@ -86,8 +86,8 @@ Scene makeOffice(std::uint64_t seed) {
   b.lamps({0.3F, 0.0F}, 2.4F, 2.2F, kHeight);
 
   b.place(0.0F, 0.0F, 0.0F, 0.0F);
-  b.box({2.05F, -0.2F, 0.0F}, {0.06F, 3.2F, 1.35F}, m.partition, m.grey_metal);
-  b.box({1.5F, 1.45F, 0.0F}, {1.1F, 0.06F, 1.35F}, m.partition, m.grey_metal);
+  b.box({2.05F, -0.2F, 0.0F}, {0.06F, 3.2F, 1.35F}, m.partition, m.gray_metal);
+  b.box({1.5F, 1.45F, 0.0F}, {1.1F, 0.06F, 1.35F}, m.partition, m.gray_metal);
   for (const float y : {-1.3F, -0.75F, 0.1F, 0.95F}) {
     b.uprightPanel({2.012F, y, 1.0F + b.uniform(-0.08F, 0.08F)}, kPi, b.uniform(0.2F, 0.3F),
                    b.uniform(0.28F, 0.38F), b.picture(printedPageTexture(b.nextSeed())));
@@ -107,7 +107,7 @@ Scene makeOffice(std::uint64_t seed) {
   b.box({0.02F, 0.04F, 0.6F}, {0.36F, 0.3F, 0.3F}, m.cardboard,
         b.picture(printedPageTexture(b.nextSeed())));
   b.place(0.85F, -1.75F, 0.0F, 0.5F * kPi);
-  b.box({0.0F, 0.0F, 0.0F}, {0.5F, 0.42F, 1.25F}, m.grey_metal);
+  b.box({0.0F, 0.0F, 0.0F}, {0.5F, 0.42F, 1.25F}, m.gray_metal);
   b.cylinder({0.0F, 0.0F, 1.25F}, 0.12F, 0.15F, 0.22F, b.picture(paintingTexture(b.nextSeed())));
   addPlant(b, 0.15F, -1.75F);
 
@@ -123,12 +123,12 @@ Scene makeOffice(std::uint64_t seed) {
                  b.picture(paintingTexture(b.nextSeed())));
 
   b.scene.reference_point = {0.1F, 0.0F, 1.0F};
-  b.scene.viewpoint.centre = {-0.55F, 0.0F, 1.35F};
+  b.scene.viewpoint.center = {-0.55F, 0.0F, 1.35F};
   b.scene.viewpoint.reach = {0.45F, 0.7F, 0.3F};
   b.scene.viewpoint.yaw_reach = 0.6;
   b.scene.viewpoint.pitch_reach = 0.17;
   b.scene.viewpoint.pitch = -0.22;
-  b.scene.moving_lamp_centre = {1.1F, 0.0F, 1.55F};
+  b.scene.moving_lamp_center = {1.1F, 0.0F, 1.55F};
   b.scene.moving_lamp_reach = {0.25F, 1.1F, 0.25F};
   return std::move(b.scene);
 }

@@ -14,7 +14,7 @@ constexpr int kColumns = 46;
 constexpr int kRows = 30;
 constexpr float kJoint = 0.004F;
 
-// A chequered wall: a shift by one tile turns light into dark, by two all is the same again.
+// A checkered wall: a shift by one tile turns light into dark, by two all is the same again.
 void addTiles(SceneBuilder& b) {
   const int light = b.plain({0.62F, 0.64F, 0.64F}, 0.25F, 5);
   const int dark = b.plain({0.34F, 0.38F, 0.4F}, 0.25F, 5);
@@ -58,12 +58,12 @@ Scene makePanels(std::uint64_t seed) {
   addFittings(b);
 
   b.scene.reference_point = {0.0F, 0.0F, 1.0F};
-  b.scene.viewpoint.centre = {-0.2F, 0.0F, 1.35F};
+  b.scene.viewpoint.center = {-0.2F, 0.0F, 1.35F};
   b.scene.viewpoint.reach = {0.4F, 0.7F, 0.3F};
   b.scene.viewpoint.yaw_reach = 0.4;
   b.scene.viewpoint.pitch_reach = 0.15;
   b.scene.viewpoint.pitch = -0.08;
-  b.scene.moving_lamp_centre = {0.8F, 0.0F, 1.5F};
+  b.scene.moving_lamp_center = {0.8F, 0.0F, 1.5F};
   b.scene.moving_lamp_reach = {0.25F, 1.0F, 0.3F};
   return std::move(b.scene);
 }

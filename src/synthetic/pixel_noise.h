@@ -8,7 +8,7 @@
 
 namespace mivo {
 
-/// Mixes all bits (the finaliser of SplitMix64).
+/// Mixes all bits (the finalizer of SplitMix64).
 inline std::uint64_t mixBits(std::uint64_t x) {
   x += 0x9e3779b97f4a7c15ULL;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ULL;

@@ -25,7 +25,7 @@ struct Grid {
 };
 
 // Flat pieces need one quadrilateral; 48 around make a circle round to 0.2 % of its radius. What
-// fills the view is round to 10 micrometres, of pieces that are not too narrow to be hit exactly.
+// fills the view is round to 10 micrometers, of pieces that are not too narrow to be hit exactly.
 constexpr Grid kFurniture{48, 1};
 constexpr Grid kTube{960, 64};
 constexpr float kWidestFurniture = 0.5F;  // m, radius
@@ -161,7 +161,7 @@ class RayCaster::Implementation {
     // everywhere.
     device_ = rtcNewDevice("threads=1");
     if (device_ == nullptr) {
-      throw Error("ray caster: Embree cannot be initialised on this machine");
+      throw Error("ray caster: Embree cannot be initialized on this machine");
     }
     scene_ = rtcNewScene(device_);
     rtcSetSceneFlags(scene_, RTC_SCENE_FLAG_ROBUST);

@@ -26,10 +26,10 @@ constexpr double kGammaRange = 1.8;
 // A recording says nothing about its exposure: it is taken as this time at this gain.
 const ExposureSetting kRecordedWith{0.015, 2.0};
 
-ExposureControlOptions automatic(double target_grey) {
+ExposureControlOptions automatic(double target_gray) {
   ExposureControlOptions options;
   options.automatic = true;
-  options.target_grey = std::clamp(target_grey, 20.0, 235.0);
+  options.target_gray = std::clamp(target_gray, 20.0, 235.0);
   return options;
 }
 
@@ -47,7 +47,7 @@ Relighting::Relighting(const std::string& lighting, const SequenceTime& time, st
       time_(time),
       seed_(seed),
       imager_(ImagerOptions{}),
-      exposure_control_(automatic(ExposureControlOptions{}.target_grey), kRecordedWith) {
+      exposure_control_(automatic(ExposureControlOptions{}.target_gray), kRecordedWith) {
   if (std::find(names().begin(), names().end(), lighting) == names().end()) {
     std::string known;
     for (const std::string& name : names()) {
@@ -129,7 +129,7 @@ cv::Mat Relighting::takeAgain(const cv::Mat& image) {
       imager_.expose(light, setting.product() / kRecordedWith.product(), setting.gain,
                      hashOf(seed_, 0x7a4e, static_cast<std::uint64_t>(frame_)));
   if (name_ == "auto_exposure") {
-    exposure_control_.advance(meanGrey(taken), imager_);
+    exposure_control_.advance(meanGray(taken), imager_);
   }
   return taken;
 }
@@ -155,22 +155,22 @@ cv::Mat Relighting::relight(const cv::Mat& image) {
       (image.channels() != 1 && image.channels() != 3 && image.channels() != 4)) {
     throw Error("relighting: expected an 8-bit image with 1, 3 or 4 channels");
   }
-  cv::Mat colours = image;
+  cv::Mat colors = image;
   cv::Mat alpha;
   if (image.channels() == 4) {
     std::vector<cv::Mat> channels;
     cv::split(image, channels);
     alpha = channels.back();
     channels.pop_back();
-    cv::merge(channels, colours);
+    cv::merge(channels, colors);
   }
-  if (reference_grey_ < 0.0) {
+  if (reference_gray_ < 0.0) {
     // The camera that recorded the first frame was content with its brightness.
-    reference_grey_ = meanGrey(colours);
-    exposure_control_ = ExposureControl(automatic(reference_grey_), kRecordedWith);
+    reference_gray_ = meanGray(colors);
+    exposure_control_ = ExposureControl(automatic(reference_gray_), kRecordedWith);
   }
   cv::Mat relit =
-      name_ == "gamma" || name_ == "inversion" ? changeCurve(colours) : takeAgain(colours);
+      name_ == "gamma" || name_ == "inversion" ? changeCurve(colors) : takeAgain(colors);
   ++frame_;
   if (!alpha.empty()) {
     std::vector<cv::Mat> channels;

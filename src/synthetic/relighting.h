@@ -49,7 +49,7 @@ class Relighting {
   std::uint64_t seed_;
   Imager imager_;
   ExposureControl exposure_control_;
-  double reference_grey_ = -1.0;
+  double reference_gray_ = -1.0;
   int frame_ = 0;
 };
 

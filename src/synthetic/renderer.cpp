@@ -67,10 +67,10 @@ struct Renderer::View {
     if (moving_lux <= 0.0F) {
       return std::numeric_limits<float>::infinity();
     }
-    const Eigen::Vector3f to_centre = moving - origin;
+    const Eigen::Vector3f to_center = moving - origin;
     const float a = ray.squaredNorm();
-    const float b = to_centre.dot(ray);
-    const float c = to_centre.squaredNorm() - kBulbRadius * kBulbRadius;
+    const float b = to_center.dot(ray);
+    const float c = to_center.squaredNorm() - kBulbRadius * kBulbRadius;
     const float discriminant = b * b - a * c;
     return discriminant > 0.0F && b > 0.0F ? (b - std::sqrt(discriminant)) / a
                                            : std::numeric_limits<float>::infinity();
@@ -95,7 +95,7 @@ Renderer::Renderer(Scene scene, const Camera& camera, std::uint64_t seed)
   prepareRays();
   for (int k = 0; k < kNumLamps; ++k) {
     const Eigen::Vector3f to_lamp =
-        scene_.lamps[static_cast<std::size_t>(k)].centre - scene_.reference_point;
+        scene_.lamps[static_cast<std::size_t>(k)].center - scene_.reference_point;
     const float d2 = to_lamp.squaredNorm();
     intensity_per_lux_[static_cast<std::size_t>(k)] =
         (1.0F - kBounceShare) * d2 * d2 / (to_lamp.z() * to_lamp.z());
@@ -114,10 +114,10 @@ void Renderer::prepareSurfaces() {
     surface.size = patch.size();
     surface.texture_origin = patch.texture_origin;
     // Of a stretched picture: the geometric mean of both directions.
-    surface.texels_per_metre =
+    surface.texels_per_meter =
         material.stretched ? std::sqrt(static_cast<float>(texture.width()) / surface.size.x() *
                                        static_cast<float>(texture.height()) / surface.size.y())
-                           : 1.0F / texture.metresPerTexel();
+                           : 1.0F / texture.metersPerTexel();
     surface.specular = material.specular;
     surface.gloss_doublings = material.gloss_doublings;
     surface.luminous_lamp = material.luminous_lamp;
@@ -144,7 +144,7 @@ void Renderer::prepareRays() {
   }
 }
 
-// Between pixel centres the ray is interpolated linearly: exact without distortion, and good to
+// Between pixel centers the ray is interpolated linearly: exact without distortion, and good to
 // 1e-5 pixels with any lens that is still a camera's.
 Eigen::Vector3f Renderer::direction(float x, int y, const Eigen::Vector2f& offset) const {
   const int x0 = std::clamp(static_cast<int>(x), 1, camera_.width - 2);
@@ -168,9 +168,9 @@ Renderer::View Renderer::makeView(const PoseAtTime& pose, const LightAtTime& lig
   view.bounce = state.ambient_lux + kMovingBounce * state.moving_lux;
   for (int k = 0; k < kNumLamps; ++k) {
     const auto i = static_cast<std::size_t>(k);
-    view.lamp_x[k] = scene_.lamps[i].centre.x();
-    view.lamp_y[k] = scene_.lamps[i].centre.y();
-    view.lamp_z[k] = scene_.lamps[i].centre.z();
+    view.lamp_x[k] = scene_.lamps[i].center.x();
+    view.lamp_y[k] = scene_.lamps[i].center.y();
+    view.lamp_z[k] = scene_.lamps[i].center.z();
     view.intensity[k] = intensity_per_lux_[i] * state.lamp_lux[i];
     view.bounce += kBounceShare * state.lamp_lux[i];
   }
@@ -194,17 +194,17 @@ Eigen::Array4f Renderer::reflectance(const Surface& surface, const Hit& hit, flo
   const Texture& texture = *surface.texture;
   // A pixel's extent on the surface grows with 1 / cosine in one direction only.
   const float footprint = kFootprint * hit.depth / static_cast<float>(camera_.fx) *
-                          surface.texels_per_metre / std::sqrt(std::max(cosine, 0.05F));
+                          surface.texels_per_meter / std::sqrt(std::max(cosine, 0.05F));
   if (surface.stretched) {
     const auto width = static_cast<float>(texture.width());
     const auto height = static_cast<float>(texture.height());
     return texture.sample(std::clamp(hit.u * width - 0.5F, 0.0F, width - 1.0F),
                           std::clamp(hit.v * height - 0.5F, 0.0F, height - 1.0F), footprint);
   }
-  const Eigen::Vector2f metres(hit.u * surface.size.x() + surface.texture_origin.x(),
+  const Eigen::Vector2f meters(hit.u * surface.size.x() + surface.texture_origin.x(),
                                hit.v * surface.size.y() + surface.texture_origin.y());
-  return texture.sample(metres.x() * surface.texels_per_metre,
-                        metres.y() * surface.texels_per_metre, footprint);
+  return texture.sample(meters.x() * surface.texels_per_meter,
+                        meters.y() * surface.texels_per_meter, footprint);
 }
 
 Eigen::Array3f Renderer::shade(const View& view, const Hit& hit, float moving_visibility) const {
@@ -317,8 +317,8 @@ void Renderer::renderRow(const View& view, int y, const Eigen::Vector2f& offset,
   }
 }
 
-cv::Mat Renderer::renderColour(const PoseAtTime& pose, const LightAtTime& light,
-                               const Shutter& shutter) const {
+cv::Mat Renderer::renderColor(const PoseAtTime& pose, const LightAtTime& light,
+                              const Shutter& shutter) const {
   const std::vector<Eigen::Vector2f> offsets = sampleOffsets(shutter.samples);
   std::vector<View> views;
   if (shutter.readout == 0.0) {
@@ -396,7 +396,7 @@ float Renderer::illuminanceAt(const Eigen::Vector3f& point, const Eigen::Vector3
                               const LightState& light) const {
   float lux = light.ambient_lux + kMovingBounce * light.moving_lux;
   for (std::size_t k = 0; k < kNumLamps; ++k) {
-    const Eigen::Vector3f to_lamp = scene_.lamps[k].centre - point;
+    const Eigen::Vector3f to_lamp = scene_.lamps[k].center - point;
     const float d2 = to_lamp.squaredNorm();
     const float intensity = intensity_per_lux_[k] * light.lamp_lux[k];
     lux += kBounceShare * light.lamp_lux[k] + intensity * std::max(normal.dot(to_lamp), 0.0F) *

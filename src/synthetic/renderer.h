@@ -34,7 +34,7 @@ using LightAtTime = std::function<LightState(double)>;
 
 /// Data of a pixel for the depth sensor.
 struct SurfaceImage {
-  cv::Mat depth;  ///< CV_32FC1, metres along the optical axis; 0: nothing there
+  cv::Mat depth;  ///< CV_32FC1, meters along the optical axis; 0: nothing there
   cv::Mat
       cosine;  ///< CV_32FC1, of the angle between ray and surface normal; 0: infrared is absorbed
 };
@@ -49,8 +49,8 @@ class Renderer {
 
   /// Light that reaches each pixel: CV_32FC3 (blue, green, red), in lux times reflectance, mean
   /// over the shutter's samples.
-  cv::Mat renderColour(const PoseAtTime& pose, const LightAtTime& light,
-                       const Shutter& shutter) const;
+  cv::Mat renderColor(const PoseAtTime& pose, const LightAtTime& light,
+                      const Shutter& shutter) const;
 
   /// The surfaces in the middle of the exposure, one ray per pixel. Pixel p sees what lies at
   /// p + offset of an exactly registered depth image.
@@ -71,7 +71,7 @@ class Renderer {
     bool stretched;
     Eigen::Vector2f size;
     Eigen::Vector2f texture_origin;
-    float texels_per_metre;
+    float texels_per_meter;
     float specular;
     int gloss_doublings;
     int luminous_lamp;
@@ -100,7 +100,7 @@ class Renderer {
   LightMap light_map_;
   std::vector<Surface> surfaces_;
   std::array<float, kNumLamps> intensity_per_lux_{};  // candela for 1 lux at the reference point
-  cv::Mat rays_;                                      // CV_32FC2: x/z, y/z of each pixel's centre
+  cv::Mat rays_;                                      // CV_32FC2: x/z, y/z of each pixel's center
 };
 
 }  // namespace mivo

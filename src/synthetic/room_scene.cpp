@@ -105,12 +105,12 @@ Scene makeRoom(std::uint64_t seed) {
   b.levelPanel({0.55F, 0.1F, 0.006F}, 1.5F, 2.0F, true, b.picture(rugTexture(b.nextSeed())));
 
   b.scene.reference_point = {0.1F, 0.0F, 1.0F};
-  b.scene.viewpoint.centre = {-0.75F, 0.0F, 1.3F};
+  b.scene.viewpoint.center = {-0.75F, 0.0F, 1.3F};
   b.scene.viewpoint.reach = {0.5F, 0.7F, 0.3F};
   b.scene.viewpoint.yaw_reach = 0.6;
   b.scene.viewpoint.pitch_reach = 0.18;
   b.scene.viewpoint.pitch = -0.17;
-  b.scene.moving_lamp_centre = {0.95F, 0.0F, 1.55F};
+  b.scene.moving_lamp_center = {0.95F, 0.0F, 1.55F};
   b.scene.moving_lamp_reach = {0.3F, 1.2F, 0.4F};
   return std::move(b.scene);
 }

@@ -23,7 +23,7 @@ constexpr NamedScene kScenes[] = {
     {"corridor", makeCorridor},
     {"wall", makeWall},
     {"bare", makeBare},
-    // Of few edges and even colours.
+    // Of few edges and even colors.
     {"hallway", makeHallway},
     {"ceiling", makeCeiling},
     {"panels", makePanels},

@@ -12,7 +12,7 @@
 
 namespace mivo {
 
-/// Frame of a scene: metres, z up, floor at z = 0; the camera looks along +x at rest, +y is its
+/// Frame of a scene: meters, z up, floor at z = 0; the camera looks along +x at rest, +y is its
 /// left.
 struct Material {
   int texture = 0;
@@ -47,7 +47,7 @@ struct Patch {
 
   Eigen::Vector3f position(float u, float v) const;
   Eigen::Vector3f normal(float u, float v) const;  ///< outward, unit length
-  /// Lengths in metres along u and v.
+  /// Lengths in meters along u and v.
   Eigen::Vector2f size() const;
 };
 
@@ -55,16 +55,16 @@ constexpr int kNumLamps = 4;
 
 /// Ceiling luminaire: a horizontal rectangle that shines downwards with a cosine.
 struct Lamp {
-  Eigen::Vector3f centre = Eigen::Vector3f::Zero();
+  Eigen::Vector3f center = Eigen::Vector3f::Zero();
   float half_x = 0.3F;  ///< m
   float half_y = 0.15F;
 };
 
 /// Where the camera may go, and where the scene is to be looked at.
 struct Viewpoint {
-  Eigen::Vector3d centre = Eigen::Vector3d::Zero();
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
   Eigen::Vector3d reach =
-      Eigen::Vector3d::Zero();  ///< free half extents along x, y, z around the centre
+      Eigen::Vector3d::Zero();  ///< free half extents along x, y, z around the center
   double yaw_reach = 0.5;       ///< rad, to both sides of +x; farther, nothing is worth looking at
   double pitch_reach = 0.2;     ///< rad, around `pitch`
   double pitch = 0.0;           ///< rad, upwards
@@ -78,11 +78,11 @@ struct Scene {
   std::vector<Patch> patches;
   /// Left front, left back, right front, right back, seen by the camera at rest.
   std::array<Lamp, kNumLamps> lamps;
-  /// Where the illuminance of a lighting is stated, on a horizontal plane: the room's centre.
+  /// Where the illuminance of a lighting is stated, on a horizontal plane: the room's center.
   Eigen::Vector3f reference_point = Eigen::Vector3f::Zero();
   Viewpoint viewpoint;
   /// The moving lamp swings around this point, in front of the camera.
-  Eigen::Vector3f moving_lamp_centre = Eigen::Vector3f::Zero();
+  Eigen::Vector3f moving_lamp_center = Eigen::Vector3f::Zero();
   Eigen::Vector3f moving_lamp_reach = Eigen::Vector3f::Zero();
 };
 

@@ -28,10 +28,10 @@ int SceneBuilder::material(Texture texture, const Material& properties) {
   return static_cast<int>(scene.materials.size()) - 1;
 }
 
-int SceneBuilder::plain(const Reflectance& colour, float specular, int doublings) {
+int SceneBuilder::plain(const Reflectance& color, float specular, int doublings) {
   Material properties = glossy(specular, doublings);
   properties.clean = true;
-  return material(plainTexture(colour), properties);
+  return material(plainTexture(color), properties);
 }
 
 int SceneBuilder::picture(Texture texture, float specular, bool absorbs_infrared) {
@@ -59,43 +59,43 @@ void SceneBuilder::add(Patch patch) {
   scene.patches.push_back(patch);
 }
 
-void SceneBuilder::uprightPanel(const Eigen::Vector3f& centre, float facing, float width,
+void SceneBuilder::uprightPanel(const Eigen::Vector3f& center, float facing, float width,
                                 float height, int material) {
   // The right of somebody who looks at the panel.
   const Eigen::Vector3f right(-std::sin(facing), std::cos(facing), 0.0F);
   Patch patch;
   patch.edge_u = width * right;
   patch.edge_v = Eigen::Vector3f(0.0F, 0.0F, -height);
-  patch.origin = centre - 0.5F * patch.edge_u - 0.5F * patch.edge_v;
+  patch.origin = center - 0.5F * patch.edge_u - 0.5F * patch.edge_v;
   patch.material = material;
   add(patch);
 }
 
-void SceneBuilder::levelPanel(const Eigen::Vector3f& centre, float size_x, float size_y, bool up,
+void SceneBuilder::levelPanel(const Eigen::Vector3f& center, float size_x, float size_y, bool up,
                               int material) {
   // Seen from the camera at rest, the far edge (+x) of a table top is the upper edge of its
   // picture.
   Patch patch;
   patch.edge_u = Eigen::Vector3f(0.0F, up ? -size_y : size_y, 0.0F);
   patch.edge_v = Eigen::Vector3f(-size_x, 0.0F, 0.0F);
-  patch.origin = centre - 0.5F * patch.edge_u - 0.5F * patch.edge_v;
+  patch.origin = center - 0.5F * patch.edge_u - 0.5F * patch.edge_v;
   patch.material = material;
   add(patch);
 }
 
 void SceneBuilder::box(const Eigen::Vector3f& bottom, const Eigen::Vector3f& size, int material,
                        int top) {
-  const Eigen::Vector3f centre = bottom + Eigen::Vector3f(0.0F, 0.0F, 0.5F * size.z());
+  const Eigen::Vector3f center = bottom + Eigen::Vector3f(0.0F, 0.0F, 0.5F * size.z());
   const Eigen::Vector3f x(0.5F * size.x(), 0.0F, 0.0F);
   const Eigen::Vector3f y(0.0F, 0.5F * size.y(), 0.0F);
-  uprightPanel(centre + x, 0.0F, size.y(), size.z(), material);
-  uprightPanel(centre + y, kHalfPi, size.x(), size.z(), material);
-  uprightPanel(centre - x, kPi, size.y(), size.z(), material);
-  uprightPanel(centre - y, -kHalfPi, size.x(), size.z(), material);
+  uprightPanel(center + x, 0.0F, size.y(), size.z(), material);
+  uprightPanel(center + y, kHalfPi, size.x(), size.z(), material);
+  uprightPanel(center - x, kPi, size.y(), size.z(), material);
+  uprightPanel(center - y, -kHalfPi, size.x(), size.z(), material);
   const Eigen::Vector3f z(0.0F, 0.0F, 0.5F * size.z());
-  levelPanel(centre + z, size.x(), size.y(), true, top >= 0 ? top : material);
+  levelPanel(center + z, size.x(), size.y(), true, top >= 0 ? top : material);
   if (bottom.z() > 0.0F) {
-    levelPanel(centre - z, size.x(), size.y(), false, material);
+    levelPanel(center - z, size.x(), size.y(), false, material);
   }
 }
 
@@ -119,10 +119,10 @@ void SceneBuilder::cylinder(const Eigen::Vector3f& bottom, float bottom_radius, 
   }
 }
 
-void SceneBuilder::sphere(const Eigen::Vector3f& centre, float radius, int material) {
+void SceneBuilder::sphere(const Eigen::Vector3f& center, float radius, int material) {
   Patch patch;
   patch.shape = Shape::kSphere;
-  patch.origin = centre;
+  patch.origin = center;
   patch.edge_u = Eigen::Vector3f::UnitX();
   patch.first_radius = radius;
   patch.material = material;
@@ -132,29 +132,29 @@ void SceneBuilder::sphere(const Eigen::Vector3f& centre, float radius, int mater
 void SceneBuilder::shell(const Eigen::Vector3f& low, const Eigen::Vector3f& high, int floor,
                          int ceiling, const std::array<int, 4>& walls) {
   place(0.0F, 0.0F, 0.0F, 0.0F);
-  const Eigen::Vector3f centre = 0.5F * (low + high);
+  const Eigen::Vector3f center = 0.5F * (low + high);
   const Eigen::Vector3f size = high - low;
-  uprightPanel({high.x(), centre.y(), centre.z()}, kPi, size.y(), size.z(), walls[0]);
-  uprightPanel({centre.x(), high.y(), centre.z()}, -kHalfPi, size.x(), size.z(), walls[1]);
-  uprightPanel({low.x(), centre.y(), centre.z()}, 0.0F, size.y(), size.z(), walls[2]);
-  uprightPanel({centre.x(), low.y(), centre.z()}, kHalfPi, size.x(), size.z(), walls[3]);
-  levelPanel({centre.x(), centre.y(), low.z()}, size.x(), size.y(), true, floor);
-  levelPanel({centre.x(), centre.y(), high.z()}, size.x(), size.y(), false, ceiling);
+  uprightPanel({high.x(), center.y(), center.z()}, kPi, size.y(), size.z(), walls[0]);
+  uprightPanel({center.x(), high.y(), center.z()}, -kHalfPi, size.x(), size.z(), walls[1]);
+  uprightPanel({low.x(), center.y(), center.z()}, 0.0F, size.y(), size.z(), walls[2]);
+  uprightPanel({center.x(), low.y(), center.z()}, kHalfPi, size.x(), size.z(), walls[3]);
+  levelPanel({center.x(), center.y(), low.z()}, size.x(), size.y(), true, floor);
+  levelPanel({center.x(), center.y(), high.z()}, size.x(), size.y(), false, ceiling);
 }
 
-void SceneBuilder::lamps(const Eigen::Vector2f& centre, float spacing_x, float spacing_y,
+void SceneBuilder::lamps(const Eigen::Vector2f& center, float spacing_x, float spacing_y,
                          float ceiling) {
   place(0.0F, 0.0F, 0.0F, 0.0F);
   for (int k = 0; k < kNumLamps; ++k) {
     Lamp& lamp = scene.lamps[static_cast<std::size_t>(k)];
     const bool left = k < 2;
     const bool front = k % 2 == 0;
-    lamp.centre = {centre.x() + (front ? 0.5F : -0.5F) * spacing_x,
-                   centre.y() + (left ? 0.5F : -0.5F) * spacing_y, ceiling - 0.06F};
+    lamp.center = {center.x() + (front ? 0.5F : -0.5F) * spacing_x,
+                   center.y() + (left ? 0.5F : -0.5F) * spacing_y, ceiling - 0.06F};
     Material luminous;
     luminous.luminous_lamp = k;
     const int panel = material(plainTexture({0.9F, 0.9F, 0.9F}), luminous);
-    levelPanel(lamp.centre + Eigen::Vector3f(0.0F, 0.0F, 0.02F), 2.0F * lamp.half_x,
+    levelPanel(lamp.center + Eigen::Vector3f(0.0F, 0.0F, 0.02F), 2.0F * lamp.half_x,
                2.0F * lamp.half_y, false, panel);
   }
 }

@@ -22,8 +22,8 @@ class SceneBuilder {
 
   /// Adds a material; the result is passed to the functions below.
   int material(Texture texture, const Material& properties = {});
-  /// Without structure: one even colour (blue, green, red reflectance), and stainless.
-  int plain(const Reflectance& colour, float specular, int doublings);
+  /// Without structure: one even color (blue, green, red reflectance), and stainless.
+  int plain(const Reflectance& color, float specular, int doublings);
   int picture(Texture texture, float specular = 0.0F, bool absorbs_infrared = false);
 
   /// Following coordinates are relative to this point (on the floor, or anywhere), turned about z.
@@ -32,23 +32,23 @@ class SceneBuilder {
   float uniform(float low, float high);
   std::uint64_t nextSeed() { return seed_ + 1000 * ++seeds_; }
 
-  /// Upright rectangle facing direction `facing` (rad about z; 0: towards +x), size in metres.
-  void uprightPanel(const Eigen::Vector3f& centre, float facing, float width, float height,
+  /// Upright rectangle facing direction `facing` (rad about z; 0: towards +x), size in meters.
+  void uprightPanel(const Eigen::Vector3f& center, float facing, float width, float height,
                     int material);
   /// Horizontal rectangle facing up or down.
-  void levelPanel(const Eigen::Vector3f& centre, float size_x, float size_y, bool up, int material);
-  /// Box on its bottom centre, with another material on top if given; no bottom face.
+  void levelPanel(const Eigen::Vector3f& center, float size_x, float size_y, bool up, int material);
+  /// Box on its bottom center, with another material on top if given; no bottom face.
   void box(const Eigen::Vector3f& bottom, const Eigen::Vector3f& size, int material, int top = -1);
-  /// Vertical cylinder or cone on its bottom centre, closed at the top.
+  /// Vertical cylinder or cone on its bottom center, closed at the top.
   void cylinder(const Eigen::Vector3f& bottom, float bottom_radius, float top_radius, float height,
                 int material);
-  void sphere(const Eigen::Vector3f& centre, float radius, int material);
+  void sphere(const Eigen::Vector3f& center, float radius, int material);
 
   /// Shell of floor, ceiling and walls facing inwards: front (+x), left (+y), back, right.
   void shell(const Eigen::Vector3f& low, const Eigen::Vector3f& high, int floor, int ceiling,
              const std::array<int, 4>& walls);
   /// The four ceiling lamps with their luminaires, below a ceiling at this height.
-  void lamps(const Eigen::Vector2f& centre, float spacing_x, float spacing_y, float ceiling);
+  void lamps(const Eigen::Vector2f& center, float spacing_x, float spacing_y, float ceiling);
 
   // Furniture, standing at the placed point, its front towards -x (towards the camera at rest).
   void table(float width, float depth, float height, int top, int legs);

@@ -45,7 +45,7 @@ const std::vector<std::string>& SceneLighting::names() {
 SceneLighting::SceneLighting(const std::string& name, const SequenceTime& time, const Scene& scene)
     : name_(name),
       time_(time),
-      moving_centre_(scene.moving_lamp_centre),
+      moving_center_(scene.moving_lamp_center),
       moving_reach_(scene.moving_lamp_reach) {
   if (std::find(names().begin(), names().end(), name) == names().end()) {
     std::string known;
@@ -90,7 +90,7 @@ LightState SceneLighting::movingLamp(double t) const {
   const Eigen::Vector3f swing(static_cast<float>(std::sin(0.7 * angle)),
                               static_cast<float>(std::cos(angle)),
                               static_cast<float>(std::sin(1.9 * angle + 0.4)));
-  light.moving_position = moving_centre_ + moving_reach_.cwiseProduct(swing);
+  light.moving_position = moving_center_ + moving_reach_.cwiseProduct(swing);
   return light;
 }
 

@@ -15,7 +15,7 @@ namespace mivo {
 struct LightState {
   /// What each ceiling lamp adds to the illuminance at the scene's reference point, lux.
   std::array<float, kNumLamps> lamp_lux{};
-  float ambient_lux = 0.0F;  ///< light from everywhere (a window, the neighbouring room)
+  float ambient_lux = 0.0F;  ///< light from everywhere (a window, the neighboring room)
   float moving_lux = 0.0F;   ///< of the moving lamp, at 1 m; 0: there is none
   Eigen::Vector3f moving_position = Eigen::Vector3f::Zero();
 
@@ -41,7 +41,7 @@ class SceneLighting {
 
   std::string name_;
   SequenceTime time_;
-  Eigen::Vector3f moving_centre_;
+  Eigen::Vector3f moving_center_;
   Eigen::Vector3f moving_reach_;
 };
 

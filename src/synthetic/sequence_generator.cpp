@@ -19,11 +19,11 @@ constexpr double kSensitivity = 2.2;
 constexpr double kMostLensBlur = 20.0;  // pixels
 constexpr int kMostSamples = 48;
 constexpr double kFastestPace = 20.0;
-constexpr double kMostDepthTime = 0.1;  // s, between colour and depth, as the odometry allows
+constexpr double kMostDepthTime = 0.1;  // s, between color and depth, as the odometry allows
 constexpr double kNearDepth = 1.0;      // m, at which the extent of motion blur is estimated
 
 // Which of the many random numbers of a sequence.
-enum Stream : std::uint64_t { kLightMap = 1, kPath, kColour, kRight, kDepth, kTexture };
+enum Stream : std::uint64_t { kLightMap = 1, kPath, kColor, kRight, kDepth, kTexture };
 
 const GeneratorOptions& checked(const GeneratorOptions& options) {
   const SensorOptions& sensor = options.sensor;
@@ -107,8 +107,8 @@ ExposureSetting SequenceGenerator::firstSetting() const {
   }
   Shutter shutter;
   const cv::Mat light =
-      renderer_.renderColour([this](double t) { return path_.poseAt(t); },
-                             [this](double t) { return lighting_.at(t); }, shutter);
+      renderer_.renderColor([this](double t) { return path_.poseAt(t); },
+                            [this](double t) { return lighting_.at(t); }, shutter);
   // Clipped pixels make the mean too small; a few rounds settle that.
   Imager noiseless([this] {
     ImagerOptions options = options_.sensor.imager;
@@ -119,7 +119,7 @@ ExposureSetting SequenceGenerator::firstSetting() const {
     const cv::Mat image =
         noiseless.expose(light, kSensitivity * setting.product(), setting.gain, 0);
     const double wanted =
-        exposure_control_.wantedProduct(setting.product(), meanGrey(image), noiseless);
+        exposure_control_.wantedProduct(setting.product(), meanGray(image), noiseless);
     if (options_.sensor.exposure_control.automatic) {
       setting = exposure_control_.split(wanted);
     } else {
@@ -150,7 +150,7 @@ Shutter SequenceGenerator::shutterAt(double t, const ExposureSetting& setting) c
 cv::Mat SequenceGenerator::film(const Renderer& renderer, const PoseAtTime& pose,
                                 const Shutter& shutter, const ExposureSetting& setting,
                                 std::uint64_t seed) const {
-  cv::Mat light = renderer.renderColour(
+  cv::Mat light = renderer.renderColor(
       pose, [this](double t) { return lighting_.at(t); }, shutter);
   const double blur = options_.sensor.lens_blur;
   if (blur > 0.0) cv::GaussianBlur(light, light, cv::Size(), blur, blur, cv::BORDER_REPLICATE);
@@ -168,8 +168,7 @@ SyntheticFrame SequenceGenerator::next() {
   const Shutter shutter = shutterAt(t, frame.exposure);
   const PoseAtTime pose = [this](double time) { return path_.poseAt(time); };
   const Renderer& renderer = rendererOf(next_);
-  frame.colour =
-      film(renderer, pose, shutter, frame.exposure, hashOf(options_.seed, kColour, index));
+  frame.color = film(renderer, pose, shutter, frame.exposure, hashOf(options_.seed, kColor, index));
   if (options_.sensor.stereo_baseline > 0.0) {
     const Eigen::Translation3d right(options_.sensor.stereo_baseline, 0.0, 0.0);
     frame.right = film(
@@ -183,7 +182,7 @@ SyntheticFrame SequenceGenerator::next() {
       options_.sensor.depth_offset.cast<float>());
   frame.exact_depth = surface.depth;
   frame.depth = depth_sensor_.sense(surface, hashOf(options_.seed, kDepth, index));
-  exposure_control_.advance(meanGrey(frame.colour), imager_);
+  exposure_control_.advance(meanGray(frame.color), imager_);
   ++next_;
   return frame;
 }

@@ -32,10 +32,10 @@ struct SensorOptions {
   DepthSensorOptions depth;
   Eigen::Vector2d depth_offset =
       Eigen::Vector2d::Zero();     ///< pixels, faulty registration (Renderer::renderSurface)
-  double depth_time_offset = 0.0;  ///< s, by which a row of depth is read later than that of colour
+  double depth_time_offset = 0.0;  ///< s, by which a row of depth is read later than that of color
   double stereo_baseline = 0.0;    ///< m to the right camera; 0: there is none
 
-  /// Switches noise, motion blur, quantisation and holes off. The blur of the lens stays.
+  /// Switches noise, motion blur, quantization and holes off. The blur of the lens stays.
   void makeIdeal();
 };
 
@@ -45,7 +45,7 @@ struct GeneratorOptions {
   std::string lighting = "constant";
   int frames = 150;
   double rate = 30.0;  ///< frames per second
-  double pace = 1.0;   ///< how fast the path is travelled, 1: as camera_path.h says
+  double pace = 1.0;   ///< how fast the path is traveled, 1: as camera_path.h says
   std::uint64_t seed = 1;
   /// Before and after these frames a scene of one surface is textured: the view goes blind at once.
   /// None: it is as it is in all of them.
@@ -58,10 +58,10 @@ struct GeneratorOptions {
 struct SyntheticFrame {
   double stamp = 0.0;  ///< s, middle of the exposure of the middle row
   Eigen::Isometry3d T_world_camera = Eigen::Isometry3d::Identity();  ///< at that time, exact
-  cv::Mat colour;                                                    ///< CV_8UC3, blue, green, red
+  cv::Mat color;                                                     ///< CV_8UC3, blue, green, red
   cv::Mat right;        ///< of the right camera, empty without one
   cv::Mat depth;        ///< CV_16UC1 in the depth sensor's units
-  cv::Mat exact_depth;  ///< CV_32FC1, metres, without noise and holes
+  cv::Mat exact_depth;  ///< CV_32FC1, meters, without noise and holes
   ExposureSetting exposure;
   double lux = 0.0;  ///< of the ceiling lamps and the ambient light at the scene's reference point
 };

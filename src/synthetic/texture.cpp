@@ -21,8 +21,8 @@ bool isPowerOfTwo(int n) {
 
 }  // namespace
 
-Texture::Texture(const cv::Mat& texels, double metres_per_texel)
-    : metres_per_texel_(static_cast<float>(metres_per_texel)) {
+Texture::Texture(const cv::Mat& texels, double meters_per_texel)
+    : meters_per_texel_(static_cast<float>(meters_per_texel)) {
   if (texels.type() != CV_32FC4 || !isPowerOfTwo(texels.cols) || !isPowerOfTwo(texels.rows)) {
     throw Error("texture: expected CV_32FC4 with sizes that are powers of two");
   }
@@ -35,7 +35,7 @@ Texture::Texture(const cv::Mat& texels, double metres_per_texel)
     }
   }
   levels_.push_back(std::move(level));
-  // Means of 2 x 2: texel (x, y) of a level is centred on (2x + 0.5, 2y + 0.5) of the finer one.
+  // Means of 2 x 2: texel (x, y) of a level is centered on (2x + 0.5, 2y + 0.5) of the finer one.
   while (levels_.back().width > 1 && levels_.back().height > 1) {
     const Level& fine = levels_.back();
     Level coarse{fine.width / 2, fine.height / 2, fine.scale * 0.5F, {}};

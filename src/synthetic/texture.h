@@ -13,15 +13,15 @@ namespace mivo {
 class Texture {
  public:
   /// @param texels          CV_32FC4, both sizes powers of two
-  /// @param metres_per_texel  of a texture that is repeated; a picture that is stretched over its
+  /// @param meters_per_texel  of a texture that is repeated; a picture that is stretched over its
   ///                        surface ignores it
-  Texture(const cv::Mat& texels, double metres_per_texel);
+  Texture(const cv::Mat& texels, double meters_per_texel);
 
-  float metresPerTexel() const { return metres_per_texel_; }
+  float metersPerTexel() const { return meters_per_texel_; }
   int width() const { return levels_.front().width; }
   int height() const { return levels_.front().height; }
 
-  /// Value at a texel position (centres at integers, repeated in both directions), averaged over
+  /// Value at a texel position (centers at integers, repeated in both directions), averaged over
   /// about `footprint` texels, by trilinear interpolation.
   Eigen::Array4f sample(float x, float y, float footprint) const;
 
@@ -35,7 +35,7 @@ class Texture {
   static Eigen::Array4f bilinear(const Level& level, float x, float y);
 
   std::vector<Level> levels_;
-  float metres_per_texel_;
+  float meters_per_texel_;
 };
 
 }  // namespace mivo

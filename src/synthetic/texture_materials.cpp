@@ -12,16 +12,16 @@ namespace {
 constexpr float kMinReflectance = 0.015F;
 constexpr float kMaxReflectance = 0.92F;
 
-cv::Vec4f texel(const Reflectance& colour, float brightness, float highlight) {
+cv::Vec4f texel(const Reflectance& color, float brightness, float highlight) {
   cv::Vec4f value(0.0F, 0.0F, 0.0F, highlight);
   for (int c = 0; c < 3; ++c) {
-    value[c] = std::clamp(colour[c] * brightness, kMinReflectance, kMaxReflectance);
+    value[c] = std::clamp(color[c] * brightness, kMinReflectance, kMaxReflectance);
   }
   return value;
 }
 
 template <typename Function>
-Texture compose(int size, double metres_per_texel, const Function& value) {
+Texture compose(int size, double meters_per_texel, const Function& value) {
   cv::Mat texels(size, size, CV_32FC4);
   for (int y = 0; y < size; ++y) {
     auto* row = texels.ptr<cv::Vec4f>(y);
@@ -29,7 +29,7 @@ Texture compose(int size, double metres_per_texel, const Function& value) {
       row[x] = value(x, y);
     }
   }
-  return Texture(texels, metres_per_texel);
+  return Texture(texels, meters_per_texel);
 }
 
 // Position in a running bond of `columns` x `rows` pieces with texels `size`.
@@ -59,14 +59,14 @@ float insidePiece(const BondCell& cell, float joint_u, float joint_v) {
 
 }  // namespace
 
-Texture plasterTexture(const Reflectance& colour, double contrast, std::uint64_t seed) {
+Texture plasterTexture(const Reflectance& color, double contrast, std::uint64_t seed) {
   constexpr int kSize = 1024;
   const cv::Mat fine = spectralNoise(kSize, {1.05, 1.0, 2.0}, seed);
   const cv::Mat grain = spectralNoise(kSize, {0.5, 1.0, 1.0}, seed + 1);
   return compose(kSize, 0.0025, [&](int x, int y) {
     const float brightness = 1.0F + static_cast<float>(contrast) *
                                         (fine.at<float>(y, x) + 0.25F * grain.at<float>(y, x));
-    return texel(colour, brightness, 0.0F);
+    return texel(color, brightness, 0.0F);
   });
 }
 
@@ -122,22 +122,22 @@ Texture plankTexture(std::uint64_t seed) {
   });
 }
 
-Texture grainTexture(const Reflectance& colour, std::uint64_t seed) {
+Texture grainTexture(const Reflectance& color, std::uint64_t seed) {
   constexpr int kSize = 512;
   const cv::Mat grain = spectralNoise(kSize, {0.9, 40.0, 3.0}, seed);
   const cv::Mat cloud = spectralNoise(kSize, {1.7, 6.0, 1.0}, seed + 1);
   return compose(kSize, 0.003, [&](int x, int y) {
     const float rings = std::sin(9.0F * cloud.at<float>(y, x));
-    return texel(colour, 1.0F + 0.16F * grain.at<float>(y, x) + 0.16F * rings, 0.5F);
+    return texel(color, 1.0F + 0.16F * grain.at<float>(y, x) + 0.16F * rings, 0.5F);
   });
 }
 
-Texture wovenTexture(const Reflectance& colour, const Reflectance& second, std::uint64_t seed) {
+Texture wovenTexture(const Reflectance& color, const Reflectance& second, std::uint64_t seed) {
   constexpr int kSize = 512;
   const cv::Mat fine = spectralNoise(kSize, {0.6, 1.0, 2.0}, seed);
   const cv::Mat cloud = spectralNoise(kSize, {1.3, 1.0, 2.0}, seed + 1);
   return compose(kSize, 0.0025, [&](int x, int y) {
-    // Threads of 4 texels cross over and under; some are of the second colour.
+    // Threads of 4 texels cross over and under; some are of the second color.
     const std::uint64_t warp = hashOf(seed, 1, x / 4);
     const std::uint64_t weft = hashOf(seed, 2, y / 4);
     const bool on_top = ((x / 4) + (y / 4)) % 2 == 0;
@@ -146,18 +146,18 @@ Texture wovenTexture(const Reflectance& colour, const Reflectance& second, std::
                                                 : (y % 4 == 0 || y % 4 == 3 ? 0.0F : 1.0F));
     const float brightness =
         round * (1.0F + 0.15F * fine.at<float>(y, x) + 0.17F * cloud.at<float>(y, x));
-    return texel(mix * second + (1.0F - mix) * colour, brightness, 0.0F);
+    return texel(mix * second + (1.0F - mix) * color, brightness, 0.0F);
   });
 }
 
-Texture stoneTexture(const Reflectance& colour, std::uint64_t seed) {
+Texture stoneTexture(const Reflectance& color, std::uint64_t seed) {
   constexpr int kSize = 512;
   const cv::Mat cloud = spectralNoise(kSize, {1.2, 1.0, 1.0}, seed);
   const cv::Mat folds = spectralNoise(kSize, {1.5, 2.0, 2.0}, seed + 1);
   return compose(kSize, 0.002, [&](int x, int y) {
     const float vein =
         std::exp(-40.0F * std::abs(folds.at<float>(y, x)) * std::abs(folds.at<float>(y, x)));
-    return texel(colour, 1.0F + 0.14F * cloud.at<float>(y, x) - 0.45F * vein, 0.9F);
+    return texel(color, 1.0F + 0.14F * cloud.at<float>(y, x) - 0.45F * vein, 0.9F);
   });
 }
 
@@ -169,24 +169,24 @@ Texture terrazzoTexture(std::uint64_t seed) {
   return compose(kSize, 0.0025, [&](int x, int y) {
     const float chip = std::clamp(4.0F * (std::abs(chips.at<float>(y, x)) - 0.9F), 0.0F, 1.0F);
     const float tint = 0.35F * tints.at<float>(y, x) * chip;
-    const Reflectance colour(0.30F - 0.08F * tint, 0.33F, 0.35F + 0.10F * tint);
-    return texel(colour, 1.0F + tint + 0.07F * cloud.at<float>(y, x), 0.45F);
+    const Reflectance color(0.30F - 0.08F * tint, 0.33F, 0.35F + 0.10F * tint);
+    return texel(color, 1.0F + tint + 0.07F * cloud.at<float>(y, x), 0.45F);
   });
 }
 
 Texture cardboardTexture(std::uint64_t seed) {
   constexpr int kSize = 256;
-  const cv::Mat fibres = spectralNoise(kSize, {0.8, 5.0, 1.0}, seed);
+  const cv::Mat fibers = spectralNoise(kSize, {0.8, 5.0, 1.0}, seed);
   const cv::Mat cloud = spectralNoise(kSize, {1.3, 1.0, 1.0}, seed + 1);
   const Reflectance brown(0.17F, 0.29F, 0.42F);
   return compose(kSize, 0.0025, [&](int x, int y) {
-    return texel(brown, 1.0F + 0.07F * fibres.at<float>(y, x) + 0.12F * cloud.at<float>(y, x),
+    return texel(brown, 1.0F + 0.07F * fibers.at<float>(y, x) + 0.12F * cloud.at<float>(y, x),
                  0.0F);
   });
 }
 
-Texture plainTexture(const Reflectance& colour) {
-  return compose(4, 0.1, [&](int, int) { return texel(colour, 1.0F, 1.0F); });
+Texture plainTexture(const Reflectance& color) {
+  return compose(4, 0.1, [&](int, int) { return texel(color, 1.0F, 1.0F); });
 }
 
 }  // namespace mivo

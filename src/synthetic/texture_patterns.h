@@ -6,7 +6,7 @@
 
 #include "synthetic/texture.h"
 
-// Materials of the synthetic scenes, made from a seed. Colours are linear reflectances (blue,
+// Materials of the synthetic scenes, made from a seed. Colors are linear reflectances (blue,
 // green, red), 0..1. Each has structure at all scales down to its texel (1 to 3 mm).
 
 namespace mivo {
@@ -14,15 +14,15 @@ namespace mivo {
 using Reflectance = cv::Vec3f;
 
 // Repeated materials.
-Texture plasterTexture(const Reflectance& colour, double contrast, std::uint64_t seed);
+Texture plasterTexture(const Reflectance& color, double contrast, std::uint64_t seed);
 Texture brickTexture(std::uint64_t seed);
-Texture plankTexture(std::uint64_t seed);                             ///< floor boards along x
-Texture grainTexture(const Reflectance& colour, std::uint64_t seed);  ///< furniture wood, along x
-Texture wovenTexture(const Reflectance& colour, const Reflectance& second, std::uint64_t seed);
-Texture stoneTexture(const Reflectance& colour, std::uint64_t seed);  ///< polished, veined
-Texture terrazzoTexture(std::uint64_t seed);                          ///< speckled floor
+Texture plankTexture(std::uint64_t seed);                            ///< floor boards along x
+Texture grainTexture(const Reflectance& color, std::uint64_t seed);  ///< furniture wood, along x
+Texture wovenTexture(const Reflectance& color, const Reflectance& second, std::uint64_t seed);
+Texture stoneTexture(const Reflectance& color, std::uint64_t seed);  ///< polished, veined
+Texture terrazzoTexture(std::uint64_t seed);                         ///< speckled floor
 Texture cardboardTexture(std::uint64_t seed);
-Texture plainTexture(const Reflectance& colour);  ///< no structure at all
+Texture plainTexture(const Reflectance& color);  ///< no structure at all
 /// Painted stripes of many widths: a function of x alone, or of y alone.
 Texture stripesTexture(bool along_y, std::uint64_t seed);
 

@@ -12,7 +12,7 @@
 namespace mivo {
 namespace {
 
-// Draws with 8-bit sRGB colours, as a printer would; turned into reflectances at the end.
+// Draws with 8-bit sRGB colors, as a printer would; turned into reflectances at the end.
 class Canvas {
  public:
   Canvas(int width, int height, std::uint64_t seed, const cv::Scalar& background)
@@ -24,7 +24,7 @@ class Canvas {
   int integer(int low, int high) {
     return low + static_cast<int>(uniform(0.0, static_cast<double>(high - low) + 0.999));
   }
-  cv::Scalar colour(double low = 20, double high = 235) {
+  cv::Scalar color(double low = 20, double high = 235) {
     return cv::Scalar(uniform(low, high), uniform(low, high), uniform(low, high));
   }
   cv::Point point() { return {integer(0, image.cols - 1), integer(0, image.rows - 1)}; }
@@ -93,10 +93,10 @@ void blend(cv::Mat& image, const cv::Mat& drawn, double opacity) {
 
 Texture paintingTexture(std::uint64_t seed) {
   Canvas canvas(512, 512, seed, cv::Scalar(0, 0, 0));
-  // A landscape of clouds in two colours, shapes over it, a frame and a title.
+  // A landscape of clouds in two colors, shapes over it, a frame and a title.
   const cv::Mat cloud = spectralNoise(512, {1.6, 1.6, 1.0}, seed + 1);
-  const cv::Scalar low = canvas.colour(20, 140);
-  const cv::Scalar high = canvas.colour(120, 250);
+  const cv::Scalar low = canvas.color(20, 140);
+  const cv::Scalar high = canvas.color(120, 250);
   for (int y = 0; y < 512; ++y) {
     for (int x = 0; x < 512; ++x) {
       const double mix =
@@ -112,56 +112,56 @@ Texture paintingTexture(std::uint64_t seed) {
     cv::Mat drawn = canvas.image.clone();
     // Sizes as in nature: many small, few large.
     const int size = static_cast<int>(20.0 / std::sqrt(canvas.uniform(0.008, 1.0)));
-    const cv::Scalar colour = canvas.colour();
+    const cv::Scalar color = canvas.color();
     switch (canvas.integer(0, 3)) {
       case 0:
         cv::ellipse(drawn, canvas.point(),
                     {size, static_cast<int>(size * canvas.uniform(0.3, 1.0)) + 1},
-                    canvas.uniform(0, 180), 0, 360, colour, canvas.uniform(0, 1) < 0.6 ? -1 : 4,
+                    canvas.uniform(0, 180), 0, 360, color, canvas.uniform(0, 1) < 0.6 ? -1 : 4,
                     cv::LINE_AA);
         break;
       case 1: {
-        const cv::Point centre = canvas.point();
+        const cv::Point center = canvas.point();
         std::vector<cv::Point> corners;
         for (int k = 0, n = canvas.integer(3, 6); k < n; ++k) {
           const double angle = 2.0 * CV_PI * (k + canvas.uniform(-0.3, 0.3)) / n;
-          corners.emplace_back(centre.x + static_cast<int>(size * std::cos(angle)),
-                               centre.y + static_cast<int>(size * std::sin(angle)));
+          corners.emplace_back(center.x + static_cast<int>(size * std::cos(angle)),
+                               center.y + static_cast<int>(size * std::sin(angle)));
         }
-        cv::fillPoly(drawn, std::vector<std::vector<cv::Point>>{corners}, colour, cv::LINE_AA);
+        cv::fillPoly(drawn, std::vector<std::vector<cv::Point>>{corners}, color, cv::LINE_AA);
         break;
       }
       case 2:
-        cv::line(drawn, canvas.point(), canvas.point(), colour, canvas.integer(1, 9), cv::LINE_AA);
+        cv::line(drawn, canvas.point(), canvas.point(), color, canvas.integer(1, 9), cv::LINE_AA);
         break;
       default:
         cv::putText(drawn, canvas.word(), canvas.point(), cv::FONT_HERSHEY_DUPLEX,
-                    size / 40.0 + 0.4, colour, 2 + size / 30, cv::LINE_AA);
+                    size / 40.0 + 0.4, color, 2 + size / 30, cv::LINE_AA);
     }
     blend(canvas.image, drawn, canvas.uniform(0.55, 1.0));
   }
-  canvas.textLine(60, 460, 470, canvas.uniform(14, 34), canvas.colour(0, 255));
-  cv::rectangle(canvas.image, {0, 0}, {511, 511}, canvas.colour(10, 240), 18);
+  canvas.textLine(60, 460, 470, canvas.uniform(14, 34), canvas.color(0, 255));
+  cv::rectangle(canvas.image, {0, 0}, {511, 511}, canvas.color(10, 240), 18);
   return canvas.finish(0.05, 0.15F);
 }
 
 Texture rugTexture(std::uint64_t seed) {
   Canvas canvas(512, 512, seed, cv::Scalar(0, 0, 0));
-  canvas.image.setTo(canvas.colour(30, 120));
+  canvas.image.setTo(canvas.color(30, 120));
   for (int border = 0; border < 6; ++border) {
     const int inset = 12 + border * 16 + canvas.integer(0, 6);
-    cv::rectangle(canvas.image, {inset, inset}, {511 - inset, 511 - inset}, canvas.colour(20, 220),
+    cv::rectangle(canvas.image, {inset, inset}, {511 - inset, 511 - inset}, canvas.color(20, 220),
                   canvas.integer(2, 10));
   }
   // Ornaments, mirrored as on a woven rug but each with its own faults.
   for (int i = 0; i < 60; ++i) {
     const int size = canvas.integer(4, 26);
-    const cv::Point centre(canvas.integer(110, 256), canvas.integer(110, 256));
-    const cv::Scalar colour = canvas.colour(20, 230);
+    const cv::Point center(canvas.integer(110, 256), canvas.integer(110, 256));
+    const cv::Scalar color = canvas.color(20, 230);
     for (int mirror = 0; mirror < 4; ++mirror) {
-      const cv::Point c(mirror & 1 ? 511 - centre.x : centre.x,
-                        mirror & 2 ? 511 - centre.y : centre.y);
-      const cv::Scalar tone = colour + cv::Scalar::all(canvas.uniform(-25, 25));
+      const cv::Point c(mirror & 1 ? 511 - center.x : center.x,
+                        mirror & 2 ? 511 - center.y : center.y);
+      const cv::Scalar tone = color + cv::Scalar::all(canvas.uniform(-25, 25));
       cv::ellipse(canvas.image, c, {size, size / 2 + 1}, canvas.uniform(-8, 8) + 45.0 * (i % 4), 0,
                   360, tone, i % 3 == 0 ? 2 : -1, cv::LINE_AA);
     }
@@ -171,7 +171,7 @@ Texture rugTexture(std::uint64_t seed) {
 
 Texture printedPageTexture(std::uint64_t seed) {
   Canvas canvas(512, 512, seed, cv::Scalar(225, 232, 235));
-  const cv::Scalar ink = canvas.colour(10, 90);
+  const cv::Scalar ink = canvas.color(10, 90);
   canvas.textLine(40, 480, 70, canvas.uniform(24, 38), ink);
   const int figure_left = canvas.integer(40, 260);
   const int figure_top = canvas.integer(110, 330);
@@ -184,11 +184,11 @@ Texture printedPageTexture(std::uint64_t seed) {
     }
   }
   const cv::Rect figure(figure_left, figure_top, 205, 130);
-  cv::rectangle(canvas.image, figure, canvas.colour(120, 240), -1);
+  cv::rectangle(canvas.image, figure, canvas.color(120, 240), -1);
   cv::Point last(figure.x, figure.y + 65);
   for (int x = 10; x <= 205; x += 13) {
     const cv::Point next(figure.x + x, figure.y + canvas.integer(8, 120));
-    cv::line(canvas.image, last, next, canvas.colour(10, 120), 3, cv::LINE_AA);
+    cv::line(canvas.image, last, next, canvas.color(10, 120), 3, cv::LINE_AA);
     last = next;
   }
   cv::rectangle(canvas.image, figure, ink, 2);
@@ -201,14 +201,14 @@ Texture bookRowTexture(std::uint64_t seed) {
   while (x < 1000) {
     const int width = canvas.integer(16, 52);
     const int top = canvas.integer(4, 70);
-    const cv::Scalar cover = canvas.colour(25, 215);
-    const cv::Scalar print = cover[1] > 120 ? canvas.colour(0, 60) : canvas.colour(170, 250);
+    const cv::Scalar cover = canvas.color(25, 215);
+    const cv::Scalar print = cover[1] > 120 ? canvas.color(0, 60) : canvas.color(170, 250);
     const cv::Rect back(x, top, std::min(width, 1021 - x), 256 - top);
     cv::rectangle(canvas.image, back, cover, -1);
     for (int band = canvas.integer(0, 3); band > 0; --band) {
       const int y = canvas.integer(top + 8, 240);
       cv::rectangle(canvas.image, {back.x, y, back.width, canvas.integer(2, 14)},
-                    canvas.colour(30, 230), -1);
+                    canvas.color(30, 230), -1);
     }
     // The title runs upwards: written on a strip, which is then turned.
     if (back.width > 14 && back.height > 60) {
@@ -236,11 +236,11 @@ Texture screenTexture(std::uint64_t seed) {
     const bool dark = canvas.uniform(0, 1) < 0.6;
     cv::rectangle(canvas.image, frame, dark ? cv::Scalar(38, 32, 30) : cv::Scalar(190, 190, 185),
                   -1);
-    cv::rectangle(canvas.image, {frame.x, frame.y, frame.width, 18}, canvas.colour(80, 180), -1);
+    cv::rectangle(canvas.image, {frame.x, frame.y, frame.width, 18}, canvas.color(80, 180), -1);
     for (int y = frame.y + 36; y < frame.y + frame.height - 4; y += 16) {
       const int indent = 8 + 14 * canvas.integer(0, 3);
       canvas.textLine(frame.x + indent, frame.x + canvas.integer(frame.width / 2, frame.width - 4),
-                      y, 9, dark ? canvas.colour(120, 230) : canvas.colour(10, 100));
+                      y, 9, dark ? canvas.color(120, 230) : canvas.color(10, 100));
     }
   }
   cv::rectangle(canvas.image, {0, 0}, {511, 511}, cv::Scalar(18, 18, 18), 20);

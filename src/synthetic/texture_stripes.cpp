@@ -12,7 +12,7 @@ namespace {
 constexpr int kLength = 2048;  // texels across the stripes
 // Along them: as many as the levels need that are looked up from afar.
 constexpr int kBreadth = 32;
-constexpr double kMetresPerTexel = 0.0025;
+constexpr double kMetersPerTexel = 0.0025;
 constexpr int kNarrowest = 8;  // texels
 constexpr int kWidest = 60;
 constexpr float kDarkest = 0.12F;
@@ -55,7 +55,7 @@ Texture stripesTexture(bool along_y, std::uint64_t seed) {
     const float tone = tones[static_cast<std::size_t>(x)];
     texels.col(x).setTo(cv::Scalar(tone, tone, tone, 0.0));
   }
-  return Texture(along_y ? cv::Mat(texels.t()) : texels, kMetresPerTexel);
+  return Texture(along_y ? cv::Mat(texels.t()) : texels, kMetersPerTexel);
 }
 
 }  // namespace mivo

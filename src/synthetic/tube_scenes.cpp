@@ -22,7 +22,7 @@ Scene tubeOf(SceneBuilder& b, std::uint64_t seed, int material) {
   tube.material = material;
   b.scene.patches.push_back(tube);
   hideLamps(b.scene);
-  b.scene.viewpoint.centre = {0.0, 0.0, 0.0};
+  b.scene.viewpoint.center = {0.0, 0.0, 0.0};
   b.scene.viewpoint.reach = {0.25, 5.0, 0.25};
   b.scene.viewpoint.yaw_reach = 0.3;
   b.scene.viewpoint.pitch_reach = 1.2;

@@ -12,7 +12,7 @@ constexpr float kWall = 1.8F;  // m
 constexpr float kSide = 2.2F;
 constexpr float kHeight = 2.6F;
 constexpr float kBoard = kWall - 0.02F;
-constexpr float kBoardHeight = 1.45F;  // of its centre
+constexpr float kBoardHeight = 1.45F;  // of its center
 
 // A drawn stroke: a narrow strip on the board, level or upright.
 void addStroke(SceneBuilder& b, float y, float z, float width, float height, int ink) {
@@ -60,11 +60,11 @@ Scene makeWhiteboard(std::uint64_t seed) {
   addDrawing(b);
 
   b.scene.reference_point = {0.0F, 0.0F, 1.0F};
-  b.scene.viewpoint.centre = {-0.2F, 0.0F, 1.4F};
+  b.scene.viewpoint.center = {-0.2F, 0.0F, 1.4F};
   b.scene.viewpoint.reach = {0.4F, 0.6F, 0.25F};
   b.scene.viewpoint.yaw_reach = 0.4;
   b.scene.viewpoint.pitch_reach = 0.14;
-  b.scene.moving_lamp_centre = {0.7F, 0.0F, 1.5F};
+  b.scene.moving_lamp_center = {0.7F, 0.0F, 1.5F};
   b.scene.moving_lamp_reach = {0.25F, 0.9F, 0.3F};
   return std::move(b.scene);
 }

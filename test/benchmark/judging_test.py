@@ -55,7 +55,7 @@ class WrongMotionTest(unittest.TestCase):
         return [frames.index(wrong) for wrong in judging.wrong_motions(frames, is_recording)]
 
     def test_a_jump_and_the_way_back_are_wrong(self):
-        # Both frames' millimetre makes 1.4 mm: five of them are 7.1 mm.
+        # Both frames' millimeter makes 1.4 mm: five of them are 7.1 mm.
         self.assertEqual(self.numbers(sliding([0.0, 0.0, 0.009, 0.0, 0.0])), [2, 3])
 
     def test_what_is_wrong_within_its_claim_or_small_is_not(self):
@@ -169,7 +169,7 @@ class GapTest(unittest.TestCase):
     def test_the_farthest_guess(self):
         good = frame(0, at(), None)
         frames = [frame(1, at(0.3), None), frame(2, at(0.5), None, state="lost"),
-                  frame(3, None, None, state="initialising"), frame(4, at(0.9), None, segment=1),
+                  frame(3, None, None, state="initializing"), frame(4, at(0.9), None, segment=1),
                   frame(5, at(4.0), None, segment=1)]
         self.assertAlmostEqual(gaps.farthest(good, frames), 0.6)
 
@@ -187,7 +187,7 @@ class TrackTest(unittest.TestCase):
             def write(name, text):
                 with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
                     file.write(text)
-            write("run.csv", "stamp,state,segment\n1.000000,initialising,0\n1.100000,tracking,0\n"
+            write("run.csv", "stamp,state,segment\n1.000000,initializing,0\n1.100000,tracking,0\n"
                              "1.200000,lost,0\n1.300000,degraded,0\n")
             write("run.txt", "# stamp\n1.100000 1 0 0 0 0 0 1\n1.300000 3 0 0 0 0 0 1\n")
             write("groundtruth.txt", "1.05 0 0 0 0 0 0 1\n1.15 2 0 0 0 0 0 1\n1.3 9 0 0 0 0 0 1\n")
@@ -195,7 +195,7 @@ class TrackTest(unittest.TestCase):
             self.assertEqual([one.state for one in measured(frames)], ["tracking", "degraded"])
             self.assertEqual([one.pose is None for one in frames], [True, False, True, False])
             self.assertEqual(frames[3].pose[0, 3], 3.0)
-            # True poses lie between their neighbours, unless these are far apart.
+            # True poses lie between their neighbors, unless these are far apart.
             self.assertAlmostEqual(frames[1].truth[0, 3], 1.0)
             self.assertEqual([one.truth is None for one in frames], [True, False, True, False])
             write("run.txt", "# nothing was tracked\n")

@@ -165,7 +165,7 @@ class SequenceTest(unittest.TestCase):
 
 
 class StatisticsTest(unittest.TestCase):
-    def test_quantiles_lie_between_neighbours(self):
+    def test_quantiles_lie_between_neighbors(self):
         self.assertEqual(statistics.quantile([3.0, 1.0, 2.0], 0.5), 2.0)
         self.assertEqual(statistics.quantile([1.0, 2.0, 3.0, 5.0], 0.5), 2.5)
         self.assertEqual(statistics.quantile([1.0, 2.0, 3.0, 5.0], 1.0), 5.0)
@@ -192,8 +192,8 @@ class TrajectoryTest(unittest.TestCase):
         half = np.sqrt(0.5)
         a = trajectories.matrix(np.zeros(3), np.array([0.0, 0.0, half, half]))
         b = trajectories.matrix(np.array([0.0, 0.5, 0.0]), np.array([0.0, 0.0, 1.0, 0.0]))
-        metres, radians = trajectories.difference(a, b, np.eye(4), np.eye(4))
-        self.assertAlmostEqual(metres, 0.5)
+        meters, radians = trajectories.difference(a, b, np.eye(4), np.eye(4))
+        self.assertAlmostEqual(meters, 0.5)
         self.assertAlmostEqual(radians, np.pi / 2)
 
 

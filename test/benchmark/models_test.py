@@ -18,18 +18,18 @@ from measuring.keys import sequence_key  # noqa: E402
 from measuring.statistics import geometric_mean, rpe  # noqa: E402
 
 MAPS = [image_map for _, image_map, _ in models.MODELS if image_map is not None]
-INDIFFERENT_TO_GAIN = [image_maps.equalised, image_maps.gain_and_bias, image_maps.rank,
-                       image_maps.locally_normalised]
+INDIFFERENT_TO_GAIN = [image_maps.equalized, image_maps.gain_and_bias, image_maps.rank,
+                       image_maps.locally_normalized]
 INDIFFERENT_TO_OFFSET = INDIFFERENT_TO_GAIN + [image_maps.local_mean_removed,
                                                image_maps.gradient_magnitude]
 
 
-def grey(rows):
+def gray(rows):
     return np.array(rows, np.uint8)
 
 
 def textured(seed=1):
-    """Between 20 and 100 grey levels, every tenth one: twice as bright, nothing is clipped."""
+    """Between 20 and 100 gray levels, every tenth one: twice as bright, nothing is clipped."""
     return (10 * np.random.default_rng(seed).integers(2, 11, (24, 32))).astype(np.uint8)
 
 
@@ -39,12 +39,12 @@ def ramp(slope):
 
 class MapTest(unittest.TestCase):
     def agree(self, a, b):
-        """Within the rounding to grey levels."""
+        """Within the rounding to gray levels."""
         self.assertLessEqual(np.abs(a.astype(int) - b.astype(int)).max(), 1)
 
-    def test_every_map_gives_a_grey_image_of_bytes(self):
+    def test_every_map_gives_a_gray_image_of_bytes(self):
         for image_map in MAPS:
-            for image in (textured(), grey(np.full((24, 32), 7)), grey(np.zeros((24, 32)))):
+            for image in (textured(), gray(np.full((24, 32), 7)), gray(np.zeros((24, 32)))):
                 result = image_map(image, textured(2))
                 self.assertEqual((result.dtype, result.shape), (np.uint8, image.shape))
 
@@ -57,24 +57,24 @@ class MapTest(unittest.TestCase):
             with self.subTest(image_map.__name__):
                 self.agree(image_map(image + 30, first), image_map(image, first))
 
-    def test_a_curve_that_keeps_the_order_drops_out_of_what_is_equalised(self):
+    def test_a_curve_that_keeps_the_order_drops_out_of_what_is_equalized(self):
         image = textured()
         curve = np.rint(255.0 * np.sqrt(np.arange(256) / 255.0)).astype(np.uint8)
-        self.agree(image_maps.equalised(curve[image], image), image_maps.equalised(image, image))
+        self.agree(image_maps.equalized(curve[image], image), image_maps.equalized(image, image))
 
-    def test_equalised_by_value(self):
+    def test_equalized_by_value(self):
         # Of the two pixels that are not the darkest one is at most 20: half of the way.
-        np.testing.assert_array_equal(image_maps.equalised(grey([[10, 10], [20, 30]]), None),
+        np.testing.assert_array_equal(image_maps.equalized(gray([[10, 10], [20, 30]]), None),
                                       [[0, 0], [128, 255]])
 
     def test_gain_and_bias_are_those_of_the_first_frame(self):
         np.testing.assert_array_equal(
-            image_maps.gain_and_bias(grey([[50, 60]]), grey([[20, 100]])), [[20, 100]])
+            image_maps.gain_and_bias(gray([[50, 60]]), gray([[20, 100]])), [[20, 100]])
 
     def test_surroundings_of_the_same_mean_are_removed(self):
         result = image_maps.local_mean_removed(ramp(2), None)
         self.assertEqual(result[15, 20], 128)
-        image = grey(np.full((41, 41), 50))
+        image = gray(np.full((41, 41), 50))
         image[20, 20] = 150
         # The pixel itself is a part of its surroundings, 1 / (2 pi sigma^2).
         self.assertEqual(image_maps.local_mean_removed(image, None)[20, 20],
@@ -85,16 +85,16 @@ class MapTest(unittest.TestCase):
         self.assertEqual(image_maps.gradient_magnitude(ramp(3).T.copy(), None)[20, 15], 12)
 
     def test_rank_by_value(self):
-        # Of the eight neighbours on a slope three are darker; on a plain none is.
+        # Of the eight neighbors on a slope three are darker; on a plain none is.
         self.assertEqual(image_maps.rank(ramp(3), None)[15, 20], 3 * 28)
-        self.assertEqual(image_maps.rank(grey(np.full((24, 32), 200)), None).max(), 0)
+        self.assertEqual(image_maps.rank(gray(np.full((24, 32), 200)), None).max(), 0)
 
-    def test_normalised_by_value(self):
+    def test_normalized_by_value(self):
         # Of the 17 columns around a bright one nine are bright and eight dark, and the deviation is
         # the same everywhere: a tenth of it is the constant.
-        image = grey(np.tile([0, 100], (30, 20)))
+        image = gray(np.tile([0, 100], (30, 20)))
         mean, deviation = 100 * 9 / 17, 100 * np.sqrt(72) / 17
-        result = image_maps.locally_normalised(image, None)
+        result = image_maps.locally_normalized(image, None)
         self.assertEqual(result[15, 21], round(128 + 55 * (100 - mean) / (1.1 * deviation)))
         self.assertEqual(result[15, 20], round(128 - 55 * (100 - mean) / (1.1 * deviation)))
 

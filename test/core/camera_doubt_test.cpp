@@ -19,7 +19,7 @@ Camera withFocalLengths(double fx, double fy) {
   return camera;
 }
 
-Camera withCentre(double cx, double cy) {
+Camera withCenter(double cx, double cy) {
   Camera camera = kXtion;
   camera.cx = cx;
   camera.cy = cy;
@@ -66,28 +66,28 @@ TEST(CameraDoubtTest, AnglesBelow10AndAbove170DegreesAreRefused) {
 }
 
 TEST(CameraDoubtTest, PrincipalPointOutsideOfTheImageIsRefused) {
-  EXPECT_EQ(findCameraFault(withCentre(639.5, 479.5)), "");
-  EXPECT_EQ(findCameraFault(withCentre(-0.5, 100.0)), "");
-  for (const Camera& camera : {withCentre(-0.6, 239.5), withCentre(319.5, 479.6),
-                               withCentre(-5000.0, 239.5), withCentre(319.5, -20.0)}) {
+  EXPECT_EQ(findCameraFault(withCenter(639.5, 479.5)), "");
+  EXPECT_EQ(findCameraFault(withCenter(-0.5, 100.0)), "");
+  for (const Camera& camera : {withCenter(-0.6, 239.5), withCenter(319.5, 479.6),
+                               withCenter(-5000.0, 239.5), withCenter(319.5, -20.0)}) {
     const std::string error = errorText([&] { camera.validate(); });
     EXPECT_EQ(error.find("camera: the principal point ("), 0U) << error;
     EXPECT_NE(error.find("lies outside of images of 640 x 480 pixels"), std::string::npos);
     EXPECT_EQ(error.find("calibration for"), std::string::npos) << error;
   }
-  EXPECT_NE(findCameraFault(withCentre(959.5, 719.5)).find("for images of 1920 x 1440 pixels?"),
+  EXPECT_NE(findCameraFault(withCenter(959.5, 719.5)).find("for images of 1920 x 1440 pixels?"),
             std::string::npos);
 }
 
 TEST(CameraDoubtTest, CalibrationOfAnotherSizeIsDoubted) {
-  EXPECT_EQ(doubtOf(withCentre(159.5, 119.5)),
-            "the principal point (159.5, 119.5) is far from the centre of images of 640 x 480 "
+  EXPECT_EQ(doubtOf(withCenter(159.5, 119.5)),
+            "the principal point (159.5, 119.5) is far from the center of images of 640 x 480 "
             "pixels: is the calibration for images of 320 x 240 pixels?");
-  EXPECT_NE(doubtOf(withCentre(479.5, 359.5)).find("for images of 960 x 720"), std::string::npos);
+  EXPECT_NE(doubtOf(withCenter(479.5, 359.5)).find("for images of 960 x 720"), std::string::npos);
   EXPECT_EQ(
-      doubtOf(withCentre(100.0, 239.5)),
-      "the principal point (100, 239.5) is far from the centre of images of 640 x 480 pixels");
-  EXPECT_EQ(doubtOf(withCentre(250.0, 200.0)), "");
+      doubtOf(withCenter(100.0, 239.5)),
+      "the principal point (100, 239.5) is far from the center of images of 640 x 480 pixels");
+  EXPECT_EQ(doubtOf(withCenter(250.0, 200.0)), "");
 }
 
 TEST(CameraDoubtTest, FocalLengthsThatDifferAreDoubted) {

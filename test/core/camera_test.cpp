@@ -109,7 +109,7 @@ TEST(CameraTest, EveryPixelIsWithinTheRadiusOfTheDistortion) {
   }
 }
 
-// Largest difference between a level of the pyramid of a ramp over normalised coordinates and what
+// Largest difference between a level of the pyramid of a ramp over normalized coordinates and what
 // the level's camera says should be there, in pixels of the level; the border, where the Gaussian
 // meets the edge of the image, left out.
 double largestShift(const Camera& fine, const Camera& coarse, int level) {

@@ -15,7 +15,7 @@ namespace {
 
 using testing::smallCamera;
 
-cv::Mat colourNoise(int type) {
+cv::Mat colorNoise(int type) {
   cv::Mat image(24, 32, type);
   cv::RNG generator(7);
   generator.fill(image, cv::RNG::UNIFORM, 0, 256);
@@ -26,88 +26,88 @@ bool isSame(const cv::Mat& a, const cv::Mat& b) {
   return a.size() == b.size() && a.type() == b.type() && cv::norm(a, b, cv::NORM_INF) == 0.0;
 }
 
-TEST(ToGreyTest, GreyIsHandedOnWithoutACopy) {
-  const cv::Mat image = colourNoise(CV_8UC1);
-  EXPECT_EQ(toGrey(image, ChannelOrder::kRgb).data, image.data);
+TEST(ToGrayTest, GrayIsHandedOnWithoutACopy) {
+  const cv::Mat image = colorNoise(CV_8UC1);
+  EXPECT_EQ(toGray(image, ChannelOrder::kRgb).data, image.data);
 }
 
-TEST(ToGreyTest, RgbAndBgrOfTheSameSceneGiveTheSameBits) {
-  const cv::Mat rgb = colourNoise(CV_8UC3);
+TEST(ToGrayTest, RgbAndBgrOfTheSameSceneGiveTheSameBits) {
+  const cv::Mat rgb = colorNoise(CV_8UC3);
   cv::Mat bgr;
   cv::Mat rgba;
   cv::Mat bgra;
   cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
   cv::cvtColor(rgb, rgba, cv::COLOR_RGB2RGBA);
   cv::cvtColor(rgb, bgra, cv::COLOR_RGB2BGRA);
-  const cv::Mat grey = toGrey(rgb, ChannelOrder::kRgb);
-  ASSERT_EQ(grey.type(), CV_8UC1);
-  EXPECT_TRUE(isSame(toGrey(bgr, ChannelOrder::kBgr), grey));
-  EXPECT_TRUE(isSame(toGrey(rgba, ChannelOrder::kRgb), grey));
-  EXPECT_TRUE(isSame(toGrey(bgra, ChannelOrder::kBgr), grey));
-  EXPECT_FALSE(isSame(toGrey(bgr, ChannelOrder::kRgb), grey));
+  const cv::Mat gray = toGray(rgb, ChannelOrder::kRgb);
+  ASSERT_EQ(gray.type(), CV_8UC1);
+  EXPECT_TRUE(isSame(toGray(bgr, ChannelOrder::kBgr), gray));
+  EXPECT_TRUE(isSame(toGray(rgba, ChannelOrder::kRgb), gray));
+  EXPECT_TRUE(isSame(toGray(bgra, ChannelOrder::kBgr), gray));
+  EXPECT_FALSE(isSame(toGray(bgr, ChannelOrder::kRgb), gray));
 }
 
-TEST(ToGreyTest, GreenIsTheBrightestPrimary) {
-  const auto greyOf = [](int r, int g, int b) {
+TEST(ToGrayTest, GreenIsTheBrightestPrimary) {
+  const auto grayOf = [](int r, int g, int b) {
     const cv::Mat image(1, 1, CV_8UC3, cv::Scalar(r, g, b));
-    return static_cast<int>(toGrey(image, ChannelOrder::kRgb).at<unsigned char>(0, 0));
+    return static_cast<int>(toGray(image, ChannelOrder::kRgb).at<unsigned char>(0, 0));
   };
-  EXPECT_NEAR(greyOf(255, 0, 0), 0.299 * 255, 1.0);
-  EXPECT_NEAR(greyOf(0, 255, 0), 0.587 * 255, 1.0);
-  EXPECT_NEAR(greyOf(0, 0, 255), 0.114 * 255, 1.0);
-  EXPECT_EQ(greyOf(90, 90, 90), 90);
+  EXPECT_NEAR(grayOf(255, 0, 0), 0.299 * 255, 1.0);
+  EXPECT_NEAR(grayOf(0, 255, 0), 0.587 * 255, 1.0);
+  EXPECT_NEAR(grayOf(0, 0, 255), 0.114 * 255, 1.0);
+  EXPECT_EQ(grayOf(90, 90, 90), 90);
 }
 
-TEST(ToGreyTest, SixteenBitsGiveTheirHighByte) {
+TEST(ToGrayTest, SixteenBitsGiveTheirHighByte) {
   cv::Mat image(1, 65536, CV_16UC1);
   for (int value = 0; value < 65536; ++value) {
     image.at<unsigned short>(0, value) = static_cast<unsigned short>(value);
   }
-  const cv::Mat grey = toGrey(image, ChannelOrder::kRgb);
-  ASSERT_EQ(grey.type(), CV_8UC1);
+  const cv::Mat gray = toGray(image, ChannelOrder::kRgb);
+  ASSERT_EQ(gray.type(), CV_8UC1);
   int wrong = 0;
   for (int value = 0; value < 65536; ++value) {
-    if (grey.at<unsigned char>(0, value) != value >> 8) ++wrong;
+    if (gray.at<unsigned char>(0, value) != value >> 8) ++wrong;
   }
   EXPECT_EQ(wrong, 0);
 }
 
-TEST(ToGreyTest, FewerBitsGiveTheirHighestEight) {
+TEST(ToGrayTest, FewerBitsGiveTheirHighestEight) {
   for (const int bits : {8, 10, 12, 14}) {
     const int count = 1 << bits;
     cv::Mat image(1, count, CV_16UC1);
     for (int i = 0; i < count; ++i) {
       image.at<unsigned short>(0, i) = static_cast<unsigned short>(i);
     }
-    const cv::Mat grey = toGrey(image, ChannelOrder::kRgb, bits);
+    const cv::Mat gray = toGray(image, ChannelOrder::kRgb, bits);
     int wrong = 0;
     for (int i = 0; i < count; ++i) {
-      if (grey.at<unsigned char>(0, i) != i >> (bits - 8)) ++wrong;
+      if (gray.at<unsigned char>(0, i) != i >> (bits - 8)) ++wrong;
     }
     EXPECT_EQ(wrong, 0) << bits;
     const cv::Mat beyond(1, 1, CV_16UC1, cv::Scalar(65535));
-    EXPECT_EQ(toGrey(beyond, ChannelOrder::kRgb, bits).at<unsigned char>(0, 0), 255);
+    EXPECT_EQ(toGray(beyond, ChannelOrder::kRgb, bits).at<unsigned char>(0, 0), 255);
   }
 }
 
-TEST(ToGreyTest, SixteenBitColourIsThatOfEightBits) {
-  cv::Mat colour(1, 3, CV_8UC3);
-  colour.at<cv::Vec3b>(0, 0) = {250, 100, 5};
-  colour.at<cv::Vec3b>(0, 1) = {0, 255, 17};
-  colour.at<cv::Vec3b>(0, 2) = {90, 91, 92};
+TEST(ToGrayTest, SixteenBitColorIsThatOfEightBits) {
+  cv::Mat color(1, 3, CV_8UC3);
+  color.at<cv::Vec3b>(0, 0) = {250, 100, 5};
+  color.at<cv::Vec3b>(0, 1) = {0, 255, 17};
+  color.at<cv::Vec3b>(0, 2) = {90, 91, 92};
   cv::Mat wide;
-  colour.convertTo(wide, CV_16U, 257.0);
+  color.convertTo(wide, CV_16U, 257.0);
   for (const ChannelOrder order : {ChannelOrder::kRgb, ChannelOrder::kBgr}) {
-    EXPECT_TRUE(isSame(toGrey(wide, order), toGrey(colour, order)));
+    EXPECT_TRUE(isSame(toGray(wide, order), toGray(color, order)));
   }
-  colour.convertTo(wide, CV_16U, 4.0);
-  EXPECT_TRUE(isSame(toGrey(wide, ChannelOrder::kBgr, 10), toGrey(colour, ChannelOrder::kBgr)));
+  color.convertTo(wide, CV_16U, 4.0);
+  EXPECT_TRUE(isSame(toGray(wide, ChannelOrder::kBgr, 10), toGray(color, ChannelOrder::kBgr)));
 }
 
-TEST(ToGreyTest, OtherTypesAreRefusedByName) {
+TEST(ToGrayTest, OtherTypesAreRefusedByName) {
   for (const int type : {CV_32FC1, CV_16UC2, CV_8UC2, CV_16SC1}) {
     try {
-      toGrey(cv::Mat(4, 4, type, cv::Scalar::all(1)), ChannelOrder::kRgb);
+      toGray(cv::Mat(4, 4, type, cv::Scalar::all(1)), ChannelOrder::kRgb);
       ADD_FAILURE() << type;
     } catch (const Error& error) {
       EXPECT_NE(std::string(error.what()).find(std::to_string(type)), std::string::npos);
@@ -135,7 +135,7 @@ class FindFaultTest : public ::testing::Test {
 TEST_F(FindFaultTest, AGoodFrameHasNone) {
   EXPECT_EQ(findFault(frame_, camera_), "");
   frame_.depth = cv::Mat(camera_.height, camera_.width, CV_32FC1, cv::Scalar(1));
-  frame_.depth_unit = 0.0;  // of no meaning for metres
+  frame_.depth_unit = 0.0;  // of no meaning for meters
   EXPECT_EQ(findFault(frame_, camera_), "");
 }
 
@@ -144,11 +144,11 @@ TEST_F(FindFaultTest, TheStampMustBeFinite) {
   expectFault("stamp");
 }
 
-TEST_F(FindFaultTest, TheImageMustBeGrey) {
+TEST_F(FindFaultTest, TheImageMustBeGray) {
   frame_.image = cv::Mat(camera_.height, camera_.width, CV_8UC3, cv::Scalar(0));
-  expectFault("8-bit grey");
+  expectFault("8-bit gray");
   frame_.image = cv::Mat();
-  expectFault("8-bit grey");
+  expectFault("8-bit gray");
 }
 
 TEST_F(FindFaultTest, SizesMustAgree) {

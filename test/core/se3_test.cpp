@@ -129,16 +129,16 @@ TEST(Se3Test, AdjointsMultiplyAsTheirMotions) {
 }
 
 // The motion model forms T_k T_(k-1)^-1 T_k with each frame. With the transpose as the inverse,
-// rounding errors grow threefold each time; renormalised, they do not grow.
-TEST(Se3Test, OrthonormalisedMotionsDoNotDecay) {
+// rounding errors grow threefold each time; renormalized, they do not grow.
+TEST(Se3Test, OrthonormalizedMotionsDoNotDecay) {
   Random random(9);
-  const auto largestError = [&](bool renormalise) {
+  const auto largestError = [&](bool renormalize) {
     Eigen::Isometry3d before = Eigen::Isometry3d::Identity();
     Eigen::Isometry3d now = Eigen::Isometry3d::Identity();
     now.linear() = expSo3({0.01, 0.02, -0.03});
     for (int frame = 0; frame < 60; ++frame) {
       Eigen::Isometry3d next = now * before.inverse() * now;
-      if (renormalise) next = orthonormalised(next);
+      if (renormalize) next = orthonormalized(next);
       before = now;
       now = next;
     }
@@ -148,11 +148,11 @@ TEST(Se3Test, OrthonormalisedMotionsDoNotDecay) {
   EXPECT_GT(largestError(false), 1e-3);
 }
 
-TEST(Se3Test, OrthonormalisingChangesAGoodMotionByRoundingOnly) {
+TEST(Se3Test, OrthonormalizingChangesAGoodMotionByRoundingOnly) {
   Random random(10);
   for (const double angle : {0.0, 1.0, kPi}) {
     const Eigen::Isometry3d T = random.pose(3.0, angle);
-    EXPECT_LT((orthonormalised(T).matrix() - T.matrix()).cwiseAbs().maxCoeff(), 1e-14);
+    EXPECT_LT((orthonormalized(T).matrix() - T.matrix()).cwiseAbs().maxCoeff(), 1e-14);
   }
 }
 

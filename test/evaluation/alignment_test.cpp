@@ -49,7 +49,7 @@ TEST(AlignmentTest, MirroredShapeStillGetsARotation) {
   EXPECT_NEAR(rigidAlignment(points, mirrored).linear().determinant(), 1.0, 1e-12);
 }
 
-TEST(AlignmentTest, NoNeighbourIsBetter) {
+TEST(AlignmentTest, NoNeighborIsBetter) {
   const Eigen::Matrix3Xd from = randomPoints(15, 4);
   const Eigen::Matrix3Xd to = sampleMotion() * from + 0.3 * randomPoints(15, 5);
   const Eigen::Isometry3d best = rigidAlignment(from, to);

@@ -88,7 +88,7 @@ TEST(RelativePoseErrorTest, PairsWithoutTruthNearbyAreDropped) {
   truth.erase(truth.begin() + 5);
   // Pose 5 has no truth: as a first pose (5, 15) is gone; as a second pose none ends there.
   EXPECT_EQ(relativePoseErrors(truth, estimate, 1.0, kLimit).size(), 19U);
-  // With a generous limit the neighbour is taken, one period off.
+  // With a generous limit the neighbor is taken, one period off.
   const auto errors = relativePoseErrors(truth, estimate, 1.0, 0.15);
   ASSERT_EQ(errors.size(), 20U);
   EXPECT_NEAR(errors[5].translation, 0.5 * kPeriod, 1e-12);
@@ -117,7 +117,7 @@ TEST(RelativePoseErrorTest, StepsGoFromMatchedPoseToMatchedPose) {
   EXPECT_NEAR(errors[9].translation, 0.05, 1e-12);  // over the gap of 5 periods
 }
 
-TEST(RelativePoseErrorTest, PathPairsAreMetresOfTheTruePathApart) {
+TEST(RelativePoseErrorTest, PathPairsAreMetersOfTheTruePathApart) {
   // 0.1 m a step: marks at 0.5 m, 1.0 m, ..., 3.0 m, and pairs from each to the next.
   const Trajectory truth = screw(velocityOf({1.0, 0.0, 0.0}, {0, 0, 0}), 31);
   const Trajectory estimate = screw(velocityOf({1.1, 0.0, 0.0}, {0, 0, 0}), 31);

@@ -46,7 +46,7 @@ TEST(ReportTest, FiguresOfAKnownDrift) {
   }
   EXPECT_NEAR(valueOf(figures, "rpe_frame_translation_rmse_m"), 0.01, 1e-12);
   EXPECT_NEAR(valueOf(figures, "rpe_frame_rotation_rmse_deg"), 0.01 * 180.0 / M_PI, 1e-10);
-  // The estimate is stretched by 0.1 m/s about its centre: errors 0.1 |t - 1 s|.
+  // The estimate is stretched by 0.1 m/s about its center: errors 0.1 |t - 1 s|.
   double squares = 0.0;
   for (int i = 0; i < 21; ++i) squares += std::pow(0.1 * (0.1 * i - 1.0), 2);
   EXPECT_NEAR(valueOf(figures, "ate_rmse_m"), std::sqrt(squares / 21.0), 1e-12);

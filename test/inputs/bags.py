@@ -21,7 +21,7 @@ from sensor_msgs.msg import CameraInfo
 from tf2_msgs.msg import TFMessage
 
 import recordings
-from recordings import COLOUR, DEPTH, INFO, compressed, grey, image, jpeg, mosaic, nv12, pixels, png, rgb, rvl, yuyv
+from recordings import COLOR, DEPTH, INFO, compressed, gray, image, jpeg, mosaic, nv12, pixels, png, rgb, rvl, yuyv
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.realpath(__file__))))
 DOCUMENT = os.path.join(ROOT, "doc", "inputs.md")
@@ -50,8 +50,8 @@ def rows(r):
     def add(group, *arguments, **options):
         table.append(Row(group, *arguments, **options))
 
-    def colour(title, convert, *arguments, topic=COLOUR, **options):
-        add("Colour", title, lambda: r.colour("x.bag", convert, topic), *arguments, **options)
+    def color(title, convert, *arguments, topic=COLOR, **options):
+        add("Color", title, lambda: r.color("x.bag", convert, topic), *arguments, **options)
 
     def depth(title, convert, *arguments, topic=DEPTH, **options):
         add("Depth", title, lambda: r.depth("x.bag", convert, topic), *arguments, **options)
@@ -59,55 +59,55 @@ def rows(r):
     def info(title, edit, *arguments, **options):
         add("Calibration", title, lambda: r.info("x.bag", edit), *arguments, **options)
 
-    def stamps(title, stamp, *arguments, topics=(COLOUR, DEPTH, INFO), **options):
+    def stamps(title, stamp, *arguments, topics=(COLOR, DEPTH, INFO), **options):
         add("Stamps", title, lambda: r.stamps("x.bag", stamp, topics), *arguments, **options)
 
-    colour("`mono8`, `8UC1`", lambda m: image(m, grey(m), "8UC1"), ALL)
-    colour("`8UC3` (taken as bgr)", lambda m: image(m, rgb(m)[..., ::-1], "8UC3"), ALL)
-    colour("`bgra8`, `8UC4`", lambda m: image(m, cv2.cvtColor(rgb(m).copy(), cv2.COLOR_RGB2BGRA), "8UC4"), ALL)
-    colour("`rgb16`, `bgr16`", lambda m: image(m, rgb(m).astype("u2") * 257, "rgb16"), ALL)
-    colour("`mono16` of 16 bits", lambda m: image(m, grey(m).astype("u2") * 257, "mono16"), ALL)
-    colour("`mono16` of 12 bits", lambda m: image(m, grey(m).astype("u2") * 16, "mono16"), ALL)
-    colour("`mono16` of 10 bits", lambda m: image(m, grey(m).astype("u2") * 4, "mono16"), ALL)
-    colour("`yuyv`, `yuv422_yuy2`", lambda m: image(m, yuyv(m), "yuv422_yuy2"), ALL)
-    colour("`yuv422` (UYVY)", lambda m: image(m, yuyv(m)[..., ::-1], "yuv422"), ALL)
-    colour("`nv12`, `nv21`", lambda m: image(m, nv12(m), "nv12"), ALL)
-    colour("`bayer_rggb8` and the other three", lambda m: image(m, mosaic(rgb(m)), "bayer_rggb8"), ALL,
+    color("`mono8`, `8UC1`", lambda m: image(m, gray(m), "8UC1"), ALL)
+    color("`8UC3` (taken as bgr)", lambda m: image(m, rgb(m)[..., ::-1], "8UC3"), ALL)
+    color("`bgra8`, `8UC4`", lambda m: image(m, cv2.cvtColor(rgb(m).copy(), cv2.COLOR_RGB2BGRA), "8UC4"), ALL)
+    color("`rgb16`, `bgr16`", lambda m: image(m, rgb(m).astype("u2") * 257, "rgb16"), ALL)
+    color("`mono16` of 16 bits", lambda m: image(m, gray(m).astype("u2") * 257, "mono16"), ALL)
+    color("`mono16` of 12 bits", lambda m: image(m, gray(m).astype("u2") * 16, "mono16"), ALL)
+    color("`mono16` of 10 bits", lambda m: image(m, gray(m).astype("u2") * 4, "mono16"), ALL)
+    color("`yuyv`, `yuv422_yuy2`", lambda m: image(m, yuyv(m), "yuv422_yuy2"), ALL)
+    color("`yuv422` (UYVY)", lambda m: image(m, yuyv(m)[..., ::-1], "yuv422"), ALL)
+    color("`nv12`, `nv21`", lambda m: image(m, nv12(m), "nv12"), ALL)
+    color("`bayer_rggb8` and the other three", lambda m: image(m, mosaic(rgb(m)), "bayer_rggb8"), ALL,
            outcome="demosaiced", error=3.0)
-    colour("`bayer_rggb16` and the other three",
+    color("`bayer_rggb16` and the other three",
            lambda m: image(m, mosaic(rgb(m).astype("u2") * 257), "bayer_rggb16"), ALL, outcome="demosaiced",
            error=3.0)
-    colour("JPEG", lambda m: compressed(m, jpeg(rgb(m)[..., ::-1]), "rgb8; jpeg compressed bgr8"), ALL,
-           topic=COLOUR + "/compressed")
-    colour("JPEG, padded with zeros",
+    color("JPEG", lambda m: compressed(m, jpeg(rgb(m)[..., ::-1]), "rgb8; jpeg compressed bgr8"), ALL,
+           topic=COLOR + "/compressed")
+    color("JPEG, padded with zeros",
            lambda m: compressed(m, jpeg(rgb(m)[..., ::-1]) + b"\0" * 200, "rgb8; jpeg compressed bgr8"), ALL,
-           topic=COLOUR + "/compressed")
-    colour("Bayer inside of a JPEG or PNG",
+           topic=COLOR + "/compressed")
+    color("Bayer inside of a JPEG or PNG",
            lambda m: compressed(m, png(mosaic(rgb(m))), "bayer_rggb8; png compressed "), ALL,
-           topic=COLOUR + "/compressed", outcome="demosaiced", error=3.0)
-    colour("WebP, BMP", lambda m: compressed(m, b"RIFF    WEBP", "rgb8; webp compressed "), 0,
-           "its data are neither JPEG nor PNG", topic=COLOUR + "/compressed")
-    colour("`hsv8`, an empty encoding", lambda m: image(m, rgb(m), ""), 0, "expected mono8, mono16, rgb8")
+           topic=COLOR + "/compressed", outcome="demosaiced", error=3.0)
+    color("WebP, BMP", lambda m: compressed(m, b"RIFF    WEBP", "rgb8; webp compressed "), 0,
+           "its data are neither JPEG nor PNG", topic=COLOR + "/compressed")
+    color("`hsv8`, an empty encoding", lambda m: image(m, rgb(m), ""), 0, "expected mono8, mono16, rgb8")
 
     depth("`16UC1`, `mono16` (mm)", lambda m: image(m, pixels(m), "mono16"), ALL)
     depth("`32FC1` (m)", lambda m: image(m, (pixels(m) / 1000.0).astype("f4"), "32FC1"), ALL)
     depth("`64FC1`, `32SC1`, `Z16`", lambda m: image(m, pixels(m) / 1000.0, "64FC1"), 0,
-          "expected 16UC1 (millimetres) or 32FC1 (metres)")
+          "expected 16UC1 (millimeters) or 32FC1 (meters)")
     depth("`compressedDepth`, PNG", lambda m: compressed(m, header + png(pixels(m)), "16UC1; compressedDepth png"),
           ALL, topic=DEPTH + "/compressedDepth")
     depth("`compressedDepth`, RVL", lambda m: compressed(m, header + rvl(pixels(m)), "16UC1; compressedDepth rvl"),
           ALL, topic=DEPTH + "/compressedDepth")
     depth("JPEG", lambda m: compressed(m, jpeg((pixels(m) >> 4).astype("u1")), "mono8; jpeg compressed "), 0,
           "JPEG loses depth", topic=DEPTH + "/compressed")
-    depth("half the size of colour, a third, a quarter",
+    depth("half the size of color, a third, a quarter",
           lambda m: image(m, pixels(m)[::2, ::2], "16UC1"), ALL, outcome="enlarged", error=2.5)
     depth("another ratio of sizes", lambda m: image(m, pixels(m)[:200], "16UC1"), 0,
           "320 x 200 pixels, but the image 320 x 240: register it")
-    depth("metres as `16UC1`", lambda m: image(m, pixels(m) // 1000, "16UC1"), 0, "median depth seen 0.00")
-    depth("millimetres as `32FC1`", lambda m: image(m, pixels(m).astype("f4"), "32FC1"), 0, "median depth seen")
-    add("Depth", "of a camera beside colour, its calibration and tf recorded",
-        lambda: unregistered(r, True), ALL, "depth on /camera/depth/image_raw is registered to colour here",
-        "registered, what colour does not see is hidden", error=4.0)
+    depth("meters as `16UC1`", lambda m: image(m, pixels(m) // 1000, "16UC1"), 0, "median depth seen 0.00")
+    depth("millimeters as `32FC1`", lambda m: image(m, pixels(m).astype("f4"), "32FC1"), 0, "median depth seen")
+    add("Depth", "of a camera beside color, its calibration and tf recorded",
+        lambda: unregistered(r, True), ALL, "depth on /camera/depth/image_raw is registered to color here",
+        "registered, what color does not see is hidden", error=4.0)
     add("Depth", "the same without its transform", lambda: unregistered(r, False), 0,
         "tf has no transform between the two")
 
@@ -159,8 +159,8 @@ def rows(r):
     stamps("zero for ever", lambda s, n, t: 0.0, 0, "all 40 stamps are 0.000000")
     stamps("doubled", lambda s, n, t: recordings.DAY + 1 + n // 2 * 2 / 30.0, 20,
            "left_out (stamp is not newer than that of the frame before): 20", "the first of each counts")
-    stamps("of colour doubled", lambda s, n, t: recordings.DAY + 1 + n // 2 * 2 / 30.0, 20,
-           "left_out (colour image without a partner within 20 ms): 20", "the first of each counts", topics=(COLOUR,))
+    stamps("of color doubled", lambda s, n, t: recordings.DAY + 1 + n // 2 * 2 / 30.0, 20,
+           "left_out (color image without a partner within 20 ms): 20", "the first of each counts", topics=(COLOR,))
     stamps("alternating by 3 s", lambda s, n, t: s - 3.0 * (n % 2), 20,
            "left_out (stamp is not newer than that of the frame before): 20", "the later clock counts")
     stamps("a single one far ahead", lambda s, n, t: s + 1e6 * (n == 20), 39,
@@ -168,10 +168,10 @@ def rows(r):
     stamps("an hour later from the middle on", lambda s, n, t: s + 3600.0 * (n >= 20), ALL, error=None)
     stamps("set back in the middle", lambda s, n, t: s - 20 / 30.0 * (n >= 20), 36, "time was set back",
            "four frames later a new segment begins, and another file", error=None)
-    stamps("depth 0.7 s later than colour", lambda s, n, t: s + 0.7 * (t == DEPTH), 0,
+    stamps("depth 0.7 s later than color", lambda s, n, t: s + 0.7 * (t == DEPTH), 0,
            "are stamped 0.7 s apart (depth later): two clocks")
-    stamps("depth 10 ms later than colour", lambda s, n, t: s + 0.01 * (t == DEPTH), ALL)
-    stamps("depth 15 ms later than colour", lambda s, n, t: s + 0.015 * (t == DEPTH), ALL,
+    stamps("depth 10 ms later than color", lambda s, n, t: s + 0.01 * (t == DEPTH), ALL)
+    stamps("depth 15 ms later than color", lambda s, n, t: s + 0.015 * (t == DEPTH), ALL,
            "depth is stamped 15.0 ms later", "a note")
     stamps("of 2105", lambda s, n, t: s - recordings.DAY + 4.29e9, ALL, error=None)
     add("Stamps", "recorded in reverse", lambda: reversed_bag(r), ALL, "recorded in another order", "sorted, and told")
@@ -231,7 +231,7 @@ def reversed_bag(r):
 
 
 def unregistered(r, with_transform):
-    """Depth as of a camera 3 cm to the left of colour, with other focal lengths."""
+    """Depth as of a camera 3 cm to the left of color, with other focal lengths."""
     baseline, focal = 0.03, 240.0
     frame = "camera_depth_optical_frame"
 
@@ -325,9 +325,9 @@ def fault_of(r, row, base_error):
 
 
 # Rows that the node could see otherwise than run_bag does: what depends on order, time and topics.
-IN_THE_NODE = ("`compressedDepth`, RVL", "`yuyv`, `yuv422_yuy2`", "half the size", "of a camera beside colour, its",
+IN_THE_NODE = ("`compressedDepth`, RVL", "`yuyv`, `yuv422_yuy2`", "half the size", "of a camera beside color, its",
                "zeros until", "one message at the end", "a change by rounding", "a true change", "zero at first",
-               "doubled", "of colour doubled", "alternating by 3 s", "a single one far ahead", "set back in the middle",
+               "doubled", "of color doubled", "alternating by 3 s", "a single one far ahead", "set back in the middle",
                "of 2105", "split: several bags")
 
 

@@ -11,7 +11,7 @@ from sequence import FIRST, FRAMES, RATE, SMALL, Camera, stamps
 VGA = (640, 480)
 
 
-def grey(image, bits):
+def gray(image, bits):
     return cv2.cvtColor(image, cv2.COLOR_BGR2GRAY).astype(numpy.uint16) << (bits - 8)
 
 
@@ -25,7 +25,7 @@ def every(step, offset, image_of):
     return lambda i, image: image_of(i) if i % step == offset else image
 
 
-def colour_of(frame):
+def color_of(frame):
     from sequence import render
     return render(frame)[0]
 
@@ -48,23 +48,23 @@ def missing(folder):
 
 
 IMAGES = [
-    ("PNG of 8 bits and colour: the twin of all others", lambda f: f.plain()),
-    ("colour as JPEG", lambda f: f.plain(colour_ending=".jpg")),
-    ("colour with an alpha channel",
-     lambda f: f.plain(colour=lambda i, c: cv2.cvtColor(c, cv2.COLOR_BGR2BGRA))),
-    ("colour of 16 bits", lambda f: f.plain(colour=lambda i, c: c.astype(numpy.uint16) * 257)),
-    ("grey of 8 bits", lambda f: f.plain(colour=lambda i, c: cv2.cvtColor(c, cv2.COLOR_BGR2GRAY))),
-    ("grey of 16 bits", lambda f: f.plain(colour=lambda i, c: grey(c, 16))),
-    ("grey of 12 bits in 16", lambda f: f.plain(colour=lambda i, c: grey(c, 12))),
-    ("grey of 10 bits in 16", lambda f: f.plain(colour=lambda i, c: grey(c, 10))),
-    ("colour twice as large as depth, camera of the colour",
-     lambda f: f.plain(colour=larger((640, 480)), camera_line=Camera(640, 480, 560.0).line())),
-    ("colour twice as large as depth, camera of the depth",
-     lambda f: f.plain(colour=larger((640, 480)))),
-    ("colour 1.25 times as large as depth", lambda f: f.plain(colour=larger((400, 300)))),
-    ("a tenth of the colour images repeat the one before",
-     lambda f: f.plain(colour=every(10, 5, lambda i: colour_of(i - 1)))),
-    ("a truncated colour image", truncated),
+    ("PNG of 8 bits and color: the twin of all others", lambda f: f.plain()),
+    ("color as JPEG", lambda f: f.plain(color_ending=".jpg")),
+    ("color with an alpha channel",
+     lambda f: f.plain(color=lambda i, c: cv2.cvtColor(c, cv2.COLOR_BGR2BGRA))),
+    ("color of 16 bits", lambda f: f.plain(color=lambda i, c: c.astype(numpy.uint16) * 257)),
+    ("gray of 8 bits", lambda f: f.plain(color=lambda i, c: cv2.cvtColor(c, cv2.COLOR_BGR2GRAY))),
+    ("gray of 16 bits", lambda f: f.plain(color=lambda i, c: gray(c, 16))),
+    ("gray of 12 bits in 16", lambda f: f.plain(color=lambda i, c: gray(c, 12))),
+    ("gray of 10 bits in 16", lambda f: f.plain(color=lambda i, c: gray(c, 10))),
+    ("color twice as large as depth, camera of the color",
+     lambda f: f.plain(color=larger((640, 480)), camera_line=Camera(640, 480, 560.0).line())),
+    ("color twice as large as depth, camera of the depth",
+     lambda f: f.plain(color=larger((640, 480)))),
+    ("color 1.25 times as large as depth", lambda f: f.plain(color=larger((400, 300)))),
+    ("a tenth of the color images repeat the one before",
+     lambda f: f.plain(color=every(10, 5, lambda i: color_of(i - 1)))),
+    ("a truncated color image", truncated),
     ("a missing depth image", missing),
     ("depth as PGM", lambda f: f.plain(depth_ending=".pgm")),
     ("depth as TIFF", lambda f: f.plain(depth_ending=".tiff")),
@@ -72,13 +72,13 @@ IMAGES = [
     ("depth in three channels", lambda f: f.plain(depth=lambda i, d: cv2.merge([d, d, d]))),
     ("depth in steps of 0.1 m", lambda f: f.plain(depth=lambda i, d: d // 100 * 100)),
     ("depth without readings", lambda f: f.plain(depth=lambda i, d: d * 0)),
-    ("millimetres, camera.txt says 5000 units per metre",
+    ("millimeters, camera.txt says 5000 units per meter",
      lambda f: f.plain(camera_line=SMALL.line(5000))),
-    ("millimetres, camera.txt says 1 unit per metre",
+    ("millimeters, camera.txt says 1 unit per meter",
      lambda f: f.plain(camera_line=SMALL.line(1))),
     ("depth rotated by three bits to the left (SUN RGB-D)",
      lambda f: f.plain(depth=lambda i, d: rotated(d, 3))),
-    ("the same, camera.txt says 8000 units per metre",
+    ("the same, camera.txt says 8000 units per meter",
      lambda f: f.plain(depth=lambda i, d: rotated(d, 3), camera_line=SMALL.line(8000))),
     ("depth rotated by three bits to the right",
      lambda f: f.plain(depth=lambda i, d: rotated(d, 13))),
@@ -129,12 +129,12 @@ LISTS = [
 ]
 
 
-def with_lists(colour, depth):
+def with_lists(color, depth):
     """Without pairs; functions from a stamp (s) and a number to a text."""
     def make(folder):
         folder.plain()
         os.remove(os.path.join(folder.path, "associations.txt"))
-        folder.lists([colour(t, i) for i, t in enumerate(stamps())],
+        folder.lists([color(t, i) for i, t in enumerate(stamps())],
                      [depth(t, i) for i, t in enumerate(stamps())])
     return make
 
@@ -160,7 +160,7 @@ STAMPS = [
     ("every second one is 3 s earlier",
      with_lists(lambda t, i: "{:.6f}".format(t - 3 * (i % 2)),
                 lambda t, i: "{:.6f}".format(t - 3 * (i % 2)))),
-    ("depth 0.7 s later than colour, another clock", with_lists(seconds(), seconds(0.7))),
+    ("depth 0.7 s later than color, another clock", with_lists(seconds(), seconds(0.7))),
     ("depth 15 ms later, a third of it missing",
      with_lists(seconds(), lambda t, i: "{:.6f}".format(t + 0.015 + 5.0 * (i % 3 == 2)))),
 ]
@@ -216,13 +216,13 @@ def match_3d(last_row):
 
 
 def scannet(folder):
-    folder.images("color/{i}.jpg", "depth/{i}.png", colour=larger((648, 484)))
+    folder.images("color/{i}.jpg", "depth/{i}.png", color=larger((648, 484)))
     folder.write("intrinsic/intrinsic_depth.txt", matrix(SMALL, 4))
     from_zero(folder)
 
 
 def scannet_stream(folder):
-    folder.images("frame-{i:06d}.color.jpg", "frame-{i:06d}.depth.pgm", colour=larger((648, 484)))
+    folder.images("frame-{i:06d}.color.jpg", "frame-{i:06d}.depth.pgm", color=larger((648, 484)))
     folder.write("_info.txt", "m_depthShift = 1000\nm_calibrationDepthIntrinsic = {}\n".format(
         matrix(SMALL, 4).replace("\n", " ")))
     from_zero(folder)

@@ -12,7 +12,7 @@ import numpy
 import rosbag
 from sensor_msgs.msg import CompressedImage, Image
 
-COLOUR = "/camera/rgb/image_raw"
+COLOR = "/camera/rgb/image_raw"
 DEPTH = "/camera/depth_registered/image_raw"
 INFO = "/camera/rgb/camera_info"
 DAY = 1600000000  # s, of the stamps
@@ -31,7 +31,7 @@ def rgb(message):
     return array if message.encoding == "rgb8" else array[:, :, ::-1]
 
 
-def grey(message):
+def gray(message):
     return cv2.cvtColor(numpy.ascontiguousarray(rgb(message)), cv2.COLOR_RGB2GRAY)
 
 
@@ -88,8 +88,8 @@ def rvl(depth):
 
 def mosaic(array, pattern="rggb"):
     result = numpy.empty(array.shape[:2], array.dtype)
-    for k, colour in enumerate(pattern):
-        result[k // 2::2, k % 2::2] = array[k // 2::2, k % 2::2, "rgb".index(colour)]
+    for k, color in enumerate(pattern):
+        result[k // 2::2, k % 2::2] = array[k // 2::2, k % 2::2, "rgb".index(color)]
     return result
 
 
@@ -104,7 +104,7 @@ def yuyv(message):
 
 
 def nv12(message):
-    luminance = (16 + grey(message).astype(float) * 219 / 255).round().astype("u1")
+    luminance = (16 + gray(message).astype(float) * 219 / 255).round().astype("u1")
     return numpy.vstack([luminance, numpy.full((message.height // 2, message.width), 128, "u1")])
 
 
@@ -123,7 +123,7 @@ class Recordings:
         self.base = os.path.join(folder, "base.bag")
         with rosbag.Bag(early) as source, rosbag.Bag(self.base, "w") as bag:
             for topic, message, time in source.read_messages():
-                if topic not in (COLOUR, DEPTH, INFO, "/tf_static"):
+                if topic not in (COLOR, DEPTH, INFO, "/tf_static"):
                     continue
                 if topic != "/tf_static":
                     message.header.stamp += genpy.Duration(DAY)
@@ -157,8 +157,8 @@ class Recordings:
                     bag.write(item[0], item[1], item[2] if len(item) > 2 else time)
         return path
 
-    def colour(self, name, convert, topic=COLOUR):
-        return self.change(name, lambda t, m, time, n: [(topic, convert(m))] if t == COLOUR else None)
+    def color(self, name, convert, topic=COLOR):
+        return self.change(name, lambda t, m, time, n: [(topic, convert(m))] if t == COLOR else None)
 
     def depth(self, name, convert, topic=DEPTH):
         return self.change(name, lambda t, m, time, n: [(topic, convert(m))] if t == DEPTH else None)
@@ -171,7 +171,7 @@ class Recordings:
             return [(topic, message)] if edit(message, number) is not False else []
         return self.change(name, change)
 
-    def stamps(self, name, stamp, topics=(COLOUR, DEPTH, INFO)):
+    def stamps(self, name, stamp, topics=(COLOR, DEPTH, INFO)):
         """@param stamp  of the true stamp (s), the number and the topic of a message"""
         def change(topic, message, _time, number):
             if topic not in topics:

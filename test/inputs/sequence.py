@@ -43,7 +43,7 @@ def pose(i):
 
 
 def texture(points):
-    """Grey value of points of the world: waves of several lengths and directions, with edges."""
+    """Gray value of points of the world: waves of several lengths and directions, with edges."""
     value = numpy.zeros(points.shape[:-1])
     for k in range(1, 8):
         direction = numpy.array([numpy.cos(2.4 * k), numpy.sin(2.4 * k), numpy.cos(1.3 * k)])
@@ -52,7 +52,7 @@ def texture(points):
 
 
 def render(i, camera=SMALL):
-    """Colour, blue first, and depth in millimetres."""
+    """Color, blue first, and depth in millimeters."""
     rotation, position = pose(i)
     v, u = numpy.mgrid[0:camera.height, 0:camera.width].astype(float)
     rays = numpy.dstack([(u - camera.cx) / camera.focal, (v - camera.cy) / camera.focal,
@@ -62,9 +62,9 @@ def render(i, camera=SMALL):
         towards = rays @ numpy.array(normal)
         wall = (distance - numpy.array(normal) @ position) / numpy.maximum(towards, 1e-9)
         depth = numpy.minimum(depth, wall)
-    grey = texture(depth[..., None] * rays + position)
-    colour = numpy.dstack([0.9 * grey, grey, numpy.minimum(1.1 * grey, 255.0)])
-    return numpy.rint(colour).astype(numpy.uint8), numpy.rint(1000.0 * depth).astype(numpy.uint16)
+    gray = texture(depth[..., None] * rays + position)
+    color = numpy.dstack([0.9 * gray, gray, numpy.minimum(1.1 * gray, 255.0)])
+    return numpy.rint(color).astype(numpy.uint8), numpy.rint(1000.0 * depth).astype(numpy.uint16)
 
 
 def quaternion(rotation):
@@ -109,30 +109,30 @@ class Folder:
     def truth(self, times=None):
         self.write("groundtruth.txt", "".join(" ".join(words) + "\n" for words in truth(times)))
 
-    def images(self, colour_name, depth_name, colour=same, depth=same, camera=SMALL):
+    def images(self, color_name, depth_name, color=same, depth=same, camera=SMALL):
         """All frames; the names have the frame's number for {i} and its time, us, for {us}."""
         for i in range(FRAMES):
-            colour_image, depth_image = render(i, camera)
+            color_image, depth_image = render(i, camera)
             names = {"i": i, "us": round(1e6 * i / RATE)}
-            self.image(colour_name.format(**names), colour(i, colour_image))
+            self.image(color_name.format(**names), color(i, color_image))
             self.image(depth_name.format(**names), depth(i, depth_image))
 
-    def pairs(self, colour="rgb/{i}.png", depth="depth/{i}.png", times=None, change=None):
+    def pairs(self, color="rgb/{i}.png", depth="depth/{i}.png", times=None, change=None):
         """associations.txt; `change` turns the list of lines into another."""
-        lines = ["{0} {1} {0} {2}".format("{:.6f}".format(t), colour.format(i=i), depth.format(i=i))
+        lines = ["{0} {1} {0} {2}".format("{:.6f}".format(t), color.format(i=i), depth.format(i=i))
                  for i, t in enumerate(times or stamps())]
         self.write("associations.txt", "\n".join(change(lines) if change else lines) + "\n")
 
-    def lists(self, colour_times, depth_times):
+    def lists(self, color_times, depth_times):
         """rgb.txt and depth.txt; the times are texts."""
-        for name, times in (("rgb", colour_times), ("depth", depth_times)):
+        for name, times in (("rgb", color_times), ("depth", depth_times)):
             self.write(name + ".txt", "".join("{} {}/{}.png\n".format(t, name, i)
                                               for i, t in enumerate(times)))
 
-    def plain(self, colour=same, depth=same, colour_ending=".png", depth_ending=".png",
+    def plain(self, color=same, depth=same, color_ending=".png", depth_ending=".png",
               camera_line=None, camera=SMALL):
         """TUM's layout, with pairs."""
         self.write("camera.txt", camera_line or camera.line())
-        self.images("rgb/{i}" + colour_ending, "depth/{i}" + depth_ending, colour, depth, camera)
-        self.pairs("rgb/{i}" + colour_ending, "depth/{i}" + depth_ending)
+        self.images("rgb/{i}" + color_ending, "depth/{i}" + depth_ending, color, depth, camera)
+        self.pairs("rgb/{i}" + color_ending, "depth/{i}" + depth_ending)
         self.truth()

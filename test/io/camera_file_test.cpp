@@ -14,7 +14,7 @@ TEST(CameraFileTest, CameraComesBackExactly) {
   SequenceCamera camera{{640, 480, 570.0 + 1.0 / 3.0, 571.1, 319.5, 239.5, {}}, 1000.0};
   writeCamera(folder / "camera.txt", camera, Overwrite::kNo);
   EXPECT_TRUE(readCamera(folder / "camera.txt").camera == camera.camera);
-  EXPECT_EQ(readCamera(folder / "camera.txt").depth_units_per_metre, 1000.0);
+  EXPECT_EQ(readCamera(folder / "camera.txt").depth_units_per_meter, 1000.0);
 
   camera.camera.distortion = {0.1, -0.2, 1e-3, -1.0 / 7.0, 0.3};
   writeCamera(folder / "distorted.txt", camera, Overwrite::kNo);
@@ -35,7 +35,7 @@ TEST(CameraFileTest, ReadsTheFieldsInTheirOrder) {
       "camera.txt", "# comment\n640 480 501 502 303 204 5000 0.01 0.02 0.003 0.004 0.05\n"));
   EXPECT_TRUE(camera.camera ==
               (Camera{640, 480, 501, 502, 303, 204, {0.01, 0.02, 0.003, 0.004, 0.05}}));
-  EXPECT_EQ(camera.depth_units_per_metre, 5000.0);
+  EXPECT_EQ(camera.depth_units_per_meter, 5000.0);
 }
 
 TEST(CameraFileTest, AByteOrderMarkIsNoText) {
@@ -69,7 +69,7 @@ TEST(CameraFileTest, KnowsThePublishedCameras) {
   EXPECT_EQ(tumCamera("rgbd_dataset_freiburg1_desk")->camera.fx, 517.3);
   EXPECT_EQ(tumCamera("rgbd_dataset_freiburg2_xyz")->camera.distortion.k3, 0.9172);
   EXPECT_TRUE(tumCamera("rgbd_dataset_freiburg3_office")->camera.distortion.isZero());
-  EXPECT_EQ(tumCamera("rgbd_dataset_freiburg3_office")->depth_units_per_metre, 5000.0);
+  EXPECT_EQ(tumCamera("rgbd_dataset_freiburg3_office")->depth_units_per_meter, 5000.0);
   EXPECT_FALSE(tumCamera("office"));
 }
 

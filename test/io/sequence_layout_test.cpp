@@ -17,21 +17,21 @@
 namespace mivo {
 namespace {
 
-/// Three frames of one colour each: image i is 10 (i + 1) grey, its depth 1000 (i + 1).
+/// Three frames of one color each: image i is 10 (i + 1) gray, its depth 1000 (i + 1).
 class SequenceLayoutTest : public ::testing::Test {
  protected:
   static constexpr int kWidth = 8;
   static constexpr int kHeight = 6;
 
-  static int grey(int i) { return 10 * (i + 1); }
+  static int gray(int i) { return 10 * (i + 1); }
   static int depth(int i) { return 1000 * (i + 1); }
 
   void writeImage(const std::string& name, const cv::Mat& image) {
     const std::string path = folder_.write(name, "");
     ASSERT_TRUE(cv::imwrite(path, image)) << path;
   }
-  void writeColour(const std::string& name, int i, int width = kWidth, int height = kHeight) {
-    writeImage(name, cv::Mat(height, width, CV_8UC3, cv::Scalar::all(grey(i))));
+  void writeColor(const std::string& name, int i, int width = kWidth, int height = kHeight) {
+    writeImage(name, cv::Mat(height, width, CV_8UC3, cv::Scalar::all(gray(i))));
   }
   void writeDepth(const std::string& name, int value) {
     writeImage(name, cv::Mat(kHeight, kWidth, CV_16UC1, cv::Scalar(value)));
@@ -41,7 +41,7 @@ class SequenceLayoutTest : public ::testing::Test {
   void writeTumImages() {
     folder_.write("camera.txt", "8 6 10 10 4 3 1000\n");
     for (int i = 0; i < 3; ++i) {
-      writeColour("rgb/" + std::to_string(i) + ".png", i);
+      writeColor("rgb/" + std::to_string(i) + ".png", i);
       writeDepth("depth/" + std::to_string(i) + ".png", depth(i));
     }
   }
@@ -49,11 +49,11 @@ class SequenceLayoutTest : public ::testing::Test {
     return stamp + " rgb/" + std::to_string(i) + ".png " + stamp + " depth/" + std::to_string(i) +
            ".png\n";
   }
-  void writeLists(const std::vector<std::string>& colour, const std::vector<std::string>& depths) {
+  void writeLists(const std::vector<std::string>& color, const std::vector<std::string>& depths) {
     std::string images;
     std::string depth_images;
-    for (std::size_t i = 0; i < colour.size(); ++i) {
-      images += colour[i] + " rgb/" + std::to_string(i) + ".png\n";
+    for (std::size_t i = 0; i < color.size(); ++i) {
+      images += color[i] + " rgb/" + std::to_string(i) + ".png\n";
     }
     for (std::size_t i = 0; i < depths.size(); ++i) {
       depth_images += depths[i] + " depth/" + std::to_string(i) + ".png\n";
@@ -62,7 +62,7 @@ class SequenceLayoutTest : public ::testing::Test {
     folder_.write("depth.txt", depth_images);
   }
 
-  /// Expects frames with these numbers, stamps and the grey and depth that belong to them.
+  /// Expects frames with these numbers, stamps and the gray and depth that belong to them.
   void expectFrames(SequenceReader& reader, const std::vector<int>& numbers,
                     const std::vector<double>& stamps) {
     ASSERT_EQ(reader.size(), numbers.size());
@@ -71,7 +71,7 @@ class SequenceLayoutTest : public ::testing::Test {
     for (std::size_t i = 0; i < numbers.size(); ++i) {
       ASSERT_EQ(reader.next(frame, fault), FrameSource::Status::kFrame) << fault.text;
       EXPECT_NEAR(frame.stamp, stamps[i], 1e-6);
-      EXPECT_NEAR(frame.image.at<unsigned char>(3, 4), grey(numbers[i]), 1.0);
+      EXPECT_NEAR(frame.image.at<unsigned char>(3, 4), gray(numbers[i]), 1.0);
       EXPECT_EQ(frame.depth.at<unsigned short>(3, 4), depth(numbers[i]));
       EXPECT_EQ(findFault(frame, reader.camera()), "");
     }
@@ -92,7 +92,7 @@ class SequenceLayoutTest : public ::testing::Test {
     EXPECT_NEAR(reader.camera().cy, cy, 1e-9);
     EXPECT_EQ(reader.camera().width, kWidth);
     EXPECT_EQ(reader.camera().height, kHeight);
-    EXPECT_EQ(reader.depthUnitsPerMetre(), units);
+    EXPECT_EQ(reader.depthUnitsPerMeter(), units);
   }
   void expectRefusal(const std::string& text) {
     const std::string error = errorText([&] { SequenceReader(folder_.path()); });
@@ -106,7 +106,7 @@ using SequenceListTest = SequenceLayoutTest;
 using SequenceImageTest = SequenceLayoutTest;
 using SequenceStampTest = SequenceLayoutTest;
 
-TEST_F(SequenceListTest, DepthFirstIsRecognisedByTheImages) {
+TEST_F(SequenceListTest, DepthFirstIsRecognizedByTheImages) {
   writeTumImages();
   folder_.write("associations.txt",
                 "7 depth/0.png 7.01 rgb/0.png\n8 depth/1.png 8.01 rgb/1.png\n"
@@ -115,11 +115,11 @@ TEST_F(SequenceListTest, DepthFirstIsRecognisedByTheImages) {
   expectNotice("associations.txt names depth first");
 }
 
-TEST_F(SequenceListTest, DepthFirstOfA16BitGreyCameraByTheFolder) {
+TEST_F(SequenceListTest, DepthFirstOfA16BitGrayCameraByTheFolder) {
   writeTumImages();
   for (int i = 0; i < 3; ++i) {
     writeImage("rgb/" + std::to_string(i) + ".png",
-               cv::Mat(kHeight, kWidth, CV_16UC1, cv::Scalar(257 * grey(i))));
+               cv::Mat(kHeight, kWidth, CV_16UC1, cv::Scalar(257 * gray(i))));
   }
   writeImage("rgb/2.png", cv::Mat(kHeight, kWidth, CV_16UC1, cv::Scalar(65535)));
   folder_.write("associations.txt", "1 depth/0.png 1 rgb/0.png\n2 depth/1.png 2 rgb/1.png\n");
@@ -156,14 +156,14 @@ TEST_F(SequenceListTest, BlanksInPaths) {
   std::string depths;
   for (int i = 0; i < 3; ++i) {
     const std::string stamp = std::to_string(i) + ".5";
-    const std::string colour_name = "my  rgb/colour 1 " + std::to_string(i) + ".png";
+    const std::string color_name = "my  rgb/color 1 " + std::to_string(i) + ".png";
     const std::string depth_name = "my depth/2 deep " + std::to_string(i) + ".png";
-    writeColour(colour_name, i);
+    writeColor(color_name, i);
     writeDepth(depth_name, depth(i));
-    images += stamp + "\t" + colour_name + " \r\n";
+    images += stamp + "\t" + color_name + " \r\n";
     depths += stamp + " \"" + depth_name + "\"\n";
-    pairs += stamp + " " + colour_name + " " + stamp + " " + depth_name + "\n";
-    quoted += stamp + " \"" + colour_name + "\" " + stamp + " \"" + depth_name + "\"\n";
+    pairs += stamp + " " + color_name + " " + stamp + " " + depth_name + "\n";
+    quoted += stamp + " \"" + color_name + "\" " + stamp + " \"" + depth_name + "\"\n";
   }
   folder_.write("rgb.txt", images);
   folder_.write("depth.txt", depths);
@@ -190,12 +190,12 @@ TEST_F(SequenceListTest, ByteOrderMarkAndEndsOfLinesOfAnySystem) {
   }
 }
 
-TEST_F(SequenceImageTest, JpegColour) {
+TEST_F(SequenceImageTest, JpegColor) {
   folder_.write("camera.txt", "8 6 10 10 4 3 1000\n");
   std::string lines;
   for (int i = 0; i < 3; ++i) {
     const std::string number = std::to_string(i);
-    writeColour("rgb/" + number + ".jpg", i);
+    writeColor("rgb/" + number + ".jpg", i);
     writeDepth("depth/" + number + ".png", depth(i));
     lines += number + " rgb/" + number + ".jpg " + number + " depth/" + number + ".png\n";
   }
@@ -203,12 +203,12 @@ TEST_F(SequenceImageTest, JpegColour) {
   expectThreeFrames({0.0, 1.0, 2.0});
 }
 
-TEST_F(SequenceImageTest, GreyAndColourOf10To16Bits) {
+TEST_F(SequenceImageTest, GrayAndColorOf10To16Bits) {
   for (const int type : {CV_16UC1, CV_16UC3, CV_16UC4}) {
     for (const int factor : {1, 4, 16, 64, 257}) {  // 8, 10, 12, 14, 16 bits
       writeTumImages();
       for (int i = 0; i < 3; ++i) {
-        cv::Mat image(kHeight, kWidth, type, cv::Scalar::all(factor * grey(i)));
+        cv::Mat image(kHeight, kWidth, type, cv::Scalar::all(factor * gray(i)));
         image.at<unsigned short>(0, 0) = static_cast<unsigned short>(factor * 255);
         writeImage("rgb/" + std::to_string(i) + ".png", image);
       }
@@ -218,17 +218,17 @@ TEST_F(SequenceImageTest, GreyAndColourOf10To16Bits) {
   }
 }
 
-TEST_F(SequenceImageTest, ColourLargerByAWholeFactor) {
+TEST_F(SequenceImageTest, ColorLargerByAWholeFactor) {
   writeTumImages();
   for (int i = 0; i < 3; ++i) {
-    writeColour("rgb/" + std::to_string(i) + ".png", i, 3 * kWidth, 3 * kHeight);
+    writeColor("rgb/" + std::to_string(i) + ".png", i, 3 * kWidth, 3 * kHeight);
   }
   writeLists({"0", "1", "2"}, {"0", "1", "2"});
   expectThreeFrames({0.0, 1.0, 2.0});  // the camera is that of depth
   expectCamera(10.0, 10.0, 4.0, 3.0, 1000.0);
-  expectNotice("colour of 24x18 pixels is reduced to the size of depth, 8x6");
+  expectNotice("color of 24x18 pixels is reduced to the size of depth, 8x6");
 
-  folder_.write("camera.txt", "24 18 30 36 13 10 1000\n");  // that of colour
+  folder_.write("camera.txt", "24 18 30 36 13 10 1000\n");  // that of color
   SequenceReader large(folder_.path());
   EXPECT_EQ(large.camera().fx, 30.0);
   EXPECT_EQ(large.camera().width, 24);
@@ -239,12 +239,12 @@ TEST_F(SequenceImageTest, ColourLargerByAWholeFactor) {
     EXPECT_EQ(findFault(large_frame, large.camera()), "");
     EXPECT_EQ(large_frame.depth.at<float>(9, 11), 0.001F * static_cast<float>(depth(i)));
   }
-  expectNotice("depth of 8x6 pixels is enlarged to the size of colour, 24x18");
+  expectNotice("depth of 8x6 pixels is enlarged to the size of color, 24x18");
 
   folder_.write("camera.txt", "16 12 20 20 8 6 1000\n");  // neither
   expectRefusal("24x18 pixels, but the camera 16x12");
   folder_.write("camera.txt", "24 18 30 36 13 10 1000\n");
-  writeColour("rgb/1.png", 1, 2 * kWidth, 2 * kHeight);
+  writeColor("rgb/1.png", 1, 2 * kWidth, 2 * kHeight);
   SequenceReader reader(folder_.path());
   Frame frame;
   FrameFault fault;
@@ -300,15 +300,15 @@ TEST_F(SequenceStampTest, WhatHasNoPartnerIsTold) {
   writeLists({"1.00", "1.10", "1.20"}, {"1.00", "1.19"});
   EXPECT_EQ(SequenceReader(folder_.path()).size(), 2U);
   const std::map<std::string, std::size_t> alone = {
-      {"colour image without a partner within 20 ms", 1}};
+      {"color image without a partner within 20 ms", 1}};
   EXPECT_EQ(SequenceReader(folder_.path()).leftOut(), alone);
   writeLists({"1.00", "1.03", "1.09"}, {"1.50"});
   expectRefusal(
-      "no depth image is within 20 ms of a colour image; from colour to the nearest depth "
+      "no depth image is within 20 ms of a color image; from color to the nearest depth "
       "it is +0.470 s at the median");
 }
 
-TEST_F(SequenceStampTest, ColourAndDepthOfTwoClocksAreNotPaired) {
+TEST_F(SequenceStampTest, ColorAndDepthOfTwoClocksAreNotPaired) {
   writeTumImages();
   // 0.7 s are 7 images here: equal stamps would pair image 7 with depth 0.
   std::string images;
@@ -319,14 +319,14 @@ TEST_F(SequenceStampTest, ColourAndDepthOfTwoClocksAreNotPaired) {
   }
   folder_.write("rgb.txt", images);
   folder_.write("depth.txt", depths);
-  expectRefusal("depth is stamped 0.700 s later than colour: two clocks");
+  expectRefusal("depth is stamped 0.700 s later than color: two clocks");
 }
 
 TEST_F(SequenceLayoutTest, IclNuim) {
   // As its zip is: frame numbers for stamps, depth first, no camera.
   for (int i = 0; i < 3; ++i) {
     writeImage("rgb/" + std::to_string(i) + ".png",
-               cv::Mat(480, 640, CV_8UC3, cv::Scalar::all(grey(i))));
+               cv::Mat(480, 640, CV_8UC3, cv::Scalar::all(gray(i))));
     writeImage("depth/" + std::to_string(i) + ".png",
                cv::Mat(480, 640, CV_16UC1, cv::Scalar(depth(i))));
   }
@@ -339,7 +339,7 @@ TEST_F(SequenceLayoutTest, IclNuim) {
     SequenceReader reader(folder_.path());
     EXPECT_EQ(reader.camera().fx, 481.20);
     EXPECT_EQ(reader.camera().fy, 480.00);
-    EXPECT_EQ(reader.depthUnitsPerMetre(), 5000.0);
+    EXPECT_EQ(reader.depthUnitsPerMeter(), 5000.0);
     expectNotice("is laid out as ICL-NUIM");
     expectNotice("ty, qx and qz change their signs");
   }
@@ -375,7 +375,7 @@ TEST_F(SequenceLayoutTest, Bonn) {
   const SequenceReader reader(folder_ / name);
   EXPECT_EQ(reader.camera().fx, 542.822841);
   EXPECT_EQ(reader.camera().distortion.k2, -0.099343);
-  EXPECT_EQ(reader.depthUnitsPerMetre(), 5000.0);
+  EXPECT_EQ(reader.depthUnitsPerMeter(), 5000.0);
   EXPECT_NE(reader.notice().find("published camera of Bonn's dynamic sequences"),
             std::string::npos);
 }
@@ -383,7 +383,7 @@ TEST_F(SequenceLayoutTest, Bonn) {
 TEST_F(SequenceLayoutTest, SevenScenes) {
   for (int i = 0; i < 3; ++i) {
     const std::string frame = "seq-01/frame-00000" + std::to_string(i);
-    writeImage(frame + ".color.png", cv::Mat(480, 640, CV_8UC3, cv::Scalar::all(grey(i))));
+    writeImage(frame + ".color.png", cv::Mat(480, 640, CV_8UC3, cv::Scalar::all(gray(i))));
     cv::Mat depths(480, 640, CV_16UC1, cv::Scalar(depth(i)));
     depths.at<unsigned short>(0, 0) = 65535;
     writeImage(frame + ".depth.png", depths);
@@ -394,7 +394,7 @@ TEST_F(SequenceLayoutTest, SevenScenes) {
   EXPECT_NE(reader.notice().find("30 Hz are assumed"), std::string::npos);
   EXPECT_NE(reader.notice().find("not registered"), std::string::npos);
   EXPECT_EQ(reader.camera().fx, 585.0);
-  EXPECT_EQ(reader.depthUnitsPerMetre(), 1000.0);
+  EXPECT_EQ(reader.depthUnitsPerMeter(), 1000.0);
   expectFrames(reader, {0, 1, 2}, {0.0, 1.0 / 30.0, 2.0 / 30.0});
   SequenceReader again(folder_ / "seq-01");
   Frame frame;
@@ -418,7 +418,7 @@ TEST_F(SequenceLayoutTest, SevenScenes) {
 TEST_F(SequenceLayoutTest, ScanNet) {
   for (int i = 0; i < 3; ++i) {
     const std::string number = std::to_string(i);
-    writeColour("color/" + number + ".jpg", i, 17, 13);
+    writeColor("color/" + number + ".jpg", i, 17, 13);
     writeDepth("depth/" + number + ".png", depth(i));
   }
   folder_.write("intrinsic/intrinsic_depth.txt", "10 0 4 0\n0 11 3 0\n0 0 1 0\n0 0 0 1\n");
@@ -426,13 +426,13 @@ TEST_F(SequenceLayoutTest, ScanNet) {
   expectThreeFrames({0.0, 1.0 / 30.0, 2.0 / 30.0});
   expectCamera(10.0, 11.0, 4.0, 3.0, 1000.0);
   expectNotice("is laid out as ScanNet");
-  expectNotice("colour of 17x13 pixels is reduced to the size of depth, 8x6");
+  expectNotice("color of 17x13 pixels is reduced to the size of depth, 8x6");
 }
 
 TEST_F(SequenceLayoutTest, ScanNetOfTheSensorStreamReader) {
   for (int i = 0; i < 3; ++i) {
     const std::string frame = "frame-00000" + std::to_string(i);
-    writeColour(frame + ".color.jpg", i, 17, 13);
+    writeColor(frame + ".color.jpg", i, 17, 13);
     writeDepth(frame + ".depth.pgm", depth(i));
   }
   folder_.write("_info.txt",
@@ -447,7 +447,7 @@ TEST_F(SequenceLayoutTest, Sun3d) {
   const int high[] = {1000, 2000, 3000};
   for (int i = 0; i < 3; ++i) {
     const std::string number = "000000" + std::to_string(i + 1);
-    writeColour("image/" + number + "-00000" + std::to_string(1033333 + 33333 * i) + ".jpg", i);
+    writeColor("image/" + number + "-00000" + std::to_string(1033333 + 33333 * i) + ".jpg", i);
     writeDepth("depth/" + number + "-00000" + std::to_string(1040000 + 33333 * i) + ".png",
                high[i] << 3);
   }
@@ -469,7 +469,7 @@ TEST_F(SequenceLayoutTest, Sun3d) {
 TEST_F(SequenceLayoutTest, NumberedFoldersBesideACamera) {
   folder_.write("camera.txt", "8 6 10 11 4 3 1000\n");
   for (int i = 0; i < 3; ++i) {
-    writeColour("color/00000" + std::to_string(i + 5) + ".jpg", i);
+    writeColor("color/00000" + std::to_string(i + 5) + ".jpg", i);
     writeDepth("depth/" + std::to_string(i + 5) + ".png", depth(i));
   }
   expectThreeFrames({5.0 / 30.0, 6.0 / 30.0, 7.0 / 30.0});
@@ -490,7 +490,7 @@ TEST_F(SequenceLayoutTest, CamerasThatCannotBeRightAreRefusedOrDoubted) {
       "calibration for images of 16 x 12 pixels?");
   folder_.write("camera.txt", "8 6 5 5 1.5 1 1000\n");
   expectNotice(
-      "camera.txt: the principal point (1.5, 1) is far from the centre of images of 8 x 6 "
+      "camera.txt: the principal point (1.5, 1) is far from the center of images of 8 x 6 "
       "pixels: is the calibration for images of 4 x 3 pixels?");
 }
 

@@ -86,9 +86,9 @@ TEST_F(SequenceReaderTest, DeliversImagesAndDepthAsStored) {
   EXPECT_EQ(reader.next(frame, fault), FrameSource::Status::kEnd);
 }
 
-TEST_F(SequenceReaderTest, ColourIsTakenAsBlueGreenRed) {
-  const cv::Mat colour(kHeight, kWidth, CV_8UC3, cv::Scalar(250, 100, 5));
-  writePng(folder_ / "rgb/0.png", colour, Overwrite::kYes);
+TEST_F(SequenceReaderTest, ColorIsTakenAsBlueGreenRed) {
+  const cv::Mat color(kHeight, kWidth, CV_8UC3, cv::Scalar(250, 100, 5));
+  writePng(folder_ / "rgb/0.png", color, Overwrite::kYes);
   SequenceReader reader(folder_.path());
   Frame frame;
   FrameFault fault;
@@ -168,7 +168,7 @@ TEST_F(SequenceReaderTest, BrokenFrameIsSkippedWithItsReason) {
   FrameFault fault;
   reader.next(frame, fault);
   ASSERT_EQ(reader.next(frame, fault), FrameSource::Status::kSkipped);
-  EXPECT_EQ(fault.reason, "the colour image is truncated");  // counted with others
+  EXPECT_EQ(fault.reason, "the color image is truncated");  // counted with others
 }
 
 TEST_F(SequenceReaderTest, BrokenFirstFrameIsSkippedToo) {
@@ -246,7 +246,7 @@ TEST_F(SequenceReaderTest, CameraIsGuessedFromTheNameOfTumFoldersOnly) {
   folder_.write("rgbd_dataset_freiburg2_small/associations.txt", "0 rgb.png 0 depth.png\n");
   const SequenceReader reader(tum + "/");
   EXPECT_EQ(reader.camera().fx, 520.9);
-  EXPECT_EQ(reader.depthUnitsPerMetre(), 5000.0);
+  EXPECT_EQ(reader.depthUnitsPerMeter(), 5000.0);
   EXPECT_NE(reader.notice().find("no camera.txt"), std::string::npos);
 }
 

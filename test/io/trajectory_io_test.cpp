@@ -57,7 +57,7 @@ TEST(TrajectoryIoTest, ReadsCommentsBlanksTabsAndWindowsLineEnds) {
   EXPECT_EQ(trajectory[1].stamp, 2.0);
 }
 
-TEST(TrajectoryIoTest, RoundedQuaternionIsNormalised) {
+TEST(TrajectoryIoTest, RoundedQuaternionIsNormalized) {
   const TemporaryFolder folder;
   const Trajectory trajectory =
       readTrajectory(folder.write("t.txt", "0 0 0 0 0.7071 0 0 0.7070\n"));

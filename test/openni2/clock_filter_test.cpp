@@ -35,7 +35,7 @@ struct Image {
   std::int64_t arrival;
 };
 
-// Colour and depth, 30 Hz each, in order of arrival.
+// Color and depth, 30 Hz each, in order of arrival.
 std::vector<Image> simulate(const Simulation& simulation) {
   std::mt19937 random(simulation.seed);
   std::exponential_distribution<double> delay(1.0);

@@ -69,7 +69,7 @@ class OpenNi2DeviceTest : public VirtualXtionTest {
     return received;
   }
 
-  /// Depth images that were taken with a colour image.
+  /// Depth images that were taken with a color image.
   static int synchronousPairs(const std::map<StreamKind, std::vector<Received>>& received) {
     int pairs = 0;
     for (const Received& color : received.at(StreamKind::kColor)) {

@@ -75,7 +75,7 @@ TEST_F(OpenNi2DeviceTest, WithoutRegistrationDepthIsTheDepthCamerasOwn) {
   EXPECT_FALSE(same(received.at(StreamKind::kDepth).front().image, depthImage(0)));
 }
 
-TEST_F(OpenNi2DeviceTest, DepthInTenthsOfMillimetres) {
+TEST_F(OpenNi2DeviceTest, DepthInTenthsOfMillimeters) {
   DeviceRequest fine = request("any");
   fine.depth_unit = 0.0001;
   const auto device = OpenNi2Device::open(fine);
@@ -121,7 +121,7 @@ TEST_F(OpenNi2DeviceTest, NotPermitted) {
   expectFault(request("any"), DeviceFault::kNoPermission, "denied");
 }
 
-TEST_F(OpenNi2DeviceTest, WithoutColour) {
+TEST_F(OpenNi2DeviceTest, WithoutColor) {
   control("color", 0);
   expectFault(request("any"), DeviceFault::kNoColor, "has no color stream");
 }
@@ -202,9 +202,9 @@ TEST_F(OpenNi2DeviceTest, StreamsStopAndStartAgain) {
   EXPECT_GE(synchronousPairs(receive(*device, 5)), 1);
 }
 
-TEST_F(OpenNi2DeviceTest, WithoutSynchronisationTheStreamsAreOutOfStep) {
+TEST_F(OpenNi2DeviceTest, WithoutSynchronizationTheStreamsAreOutOfStep) {
   DeviceRequest independent = request("any");
-  independent.synchronise = false;
+  independent.synchronize = false;
   const auto device = OpenNi2Device::open(independent);
   startBoth(*device);
   EXPECT_EQ(synchronousPairs(receive(*device, 5)), 0);

@@ -20,7 +20,7 @@ void check(openni::Status status, const char* what) {
 
 class Library {
  public:
-  Library() { check(openni::OpenNI::initialize(), "initialise"); }
+  Library() { check(openni::OpenNI::initialize(), "initialize"); }
   ~Library() { openni::OpenNI::shutdown(); }
 };
 
@@ -49,13 +49,13 @@ void recordVirtualXtion(const std::string& path, int images,
   create(depth, device, openni::SENSOR_DEPTH, openni::PIXEL_FORMAT_DEPTH_1_MM);
   check(device.setImageRegistrationMode(openni::IMAGE_REGISTRATION_DEPTH_TO_COLOR), "register");
   check(recorder.create(path.c_str()), "create the recording");
-  check(recorder.attach(color), "attach colour");
+  check(recorder.attach(color), "attach color");
   check(recorder.attach(depth), "attach depth");
   check(recorder.start(), "start the recorder");
-  check(color.start(), "start colour");
+  check(color.start(), "start color");
   check(depth.start(), "start depth");
   check(device.setProperty<std::uint64_t>(XN_MODULE_PROPERTY_FIRMWARE_FRAME_SYNC, 1),
-        "synchronise");
+        "synchronize");
   on_start();
   openni::VideoStream* streams[] = {&color, &depth};
   for (int i = 0; i < images; ++i) {

@@ -6,7 +6,7 @@
 
 namespace mivo {
 
-/// Records colour and registered depth of the virtual camera without loss, until so many images of
+/// Records color and registered depth of the virtual camera without loss, until so many images of
 /// both together have come. `on_start` is called once both streams run. Throws std::runtime_error.
 /// The streams are stopped before the recorder, which can lock up otherwise; even so the caller
 /// should have a watchdog.

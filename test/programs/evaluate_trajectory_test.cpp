@@ -106,7 +106,7 @@ TEST_F(EvaluateTrajectoryTest, FiguresWorkedOutByHand) {
   const ProcessResult result =
       run("evaluate_trajectory", {folder_ / "square.txt", folder_ / "larger.txt"});
   ASSERT_EQ(result.exit_code, 0) << result.errors;
-  // Centres at (0.4, 0.4) and (0.44, 0.44): what remains is 0.1 times the distance from there.
+  // Centers at (0.4, 0.4) and (0.44, 0.44): what remains is 0.1 times the distance from there.
   // Squared distances: 2 * 0.32, 2 * 0.52, 0.72; in x alone 3 * 0.16, 2 * 0.36.
   EXPECT_NEAR(valueOf(result.output, "ate_rmse_m"), 0.1 * std::sqrt(2.4 / 5.0), 1e-9);
   EXPECT_NEAR(valueOf(result.output, "ate_max_m"), 0.1 * std::sqrt(0.72), 1e-9);
@@ -116,7 +116,7 @@ TEST_F(EvaluateTrajectoryTest, FiguresWorkedOutByHand) {
   EXPECT_NEAR(valueOf(result.output, "ate_scale"), 1.0 / 1.1, 1e-9);
   EXPECT_NEAR(valueOf(result.output, "ate_scaled_rmse_m"), 0.0, 1e-9);
   EXPECT_NEAR(valueOf(result.output, "rpe_frame_translation_rmse_m"), 0.1, 1e-9);
-  // Marks after each metre: from the second corner on, three sides.
+  // Marks after each meter: from the second corner on, three sides.
   EXPECT_EQ(valueOf(result.output, "rpe_path_pairs"), 3);
   EXPECT_NEAR(valueOf(result.output, "rpe_path_translation_percent"), 10.0, 1e-6);
   EXPECT_EQ(valueOf(result.output, "matched"), 1.0);
@@ -186,7 +186,7 @@ TEST_F(EvaluateTrajectoryTest, WithoutMatplotlibTheFiguresAreThereAndOneLineSays
   EXPECT_NE(contentOf(folder_ / "figures.json"), "");
 }
 
-TEST_F(EvaluateTrajectoryTest, QuaternionsWithTheScalarFirstAreRecognisedByTheTruth) {
+TEST_F(EvaluateTrajectoryTest, QuaternionsWithTheScalarFirstAreRecognizedByTheTruth) {
   std::string truth;
   std::string estimate;
   for (const auto& [path, text] : {std::make_pair(truth_, &truth), {estimate_, &estimate}}) {

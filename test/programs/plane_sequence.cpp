@@ -10,11 +10,11 @@
 namespace mivo {
 namespace {
 
-// The plane n . X = d of the world, metres: slanted, so that depth tells the six motions apart.
+// The plane n . X = d of the world, meters: slanted, so that depth tells the six motions apart.
 const Eigen::Vector3d kNormal = Eigen::Vector3d(0.2, -0.1, 1.0).normalized();
 constexpr double kDistance = 1.5;
 
-/// Grey value at a point of the plane: waves of several lengths and directions, 40..210.
+/// Gray value at a point of the plane: waves of several lengths and directions, 40..210.
 double texture(double x, double y) {
   double sum = 0.0;
   for (int i = 1; i <= 6; ++i) {

@@ -9,7 +9,7 @@
 
 namespace mivo {
 
-/// The camera of the sequences below: 160 x 120 pixels, depth in millimetres.
+/// The camera of the sequences below: 160 x 120 pixels, depth in millimeters.
 SequenceCamera planeCamera();
 
 /// Pose of frame `i`: a slow arc in front of the plane, starting at the identity.
@@ -18,7 +18,7 @@ Eigen::Isometry3d planePose(int i);
 /// Stamp of frame `i`, at 30 Hz.
 double planeStamp(int i);
 
-/// Image and depth (metres) of a textured, slanted plane, in closed form.
+/// Image and depth (meters) of a textured, slanted plane, in closed form.
 void renderPlane(const Eigen::Isometry3d& T_world_camera, cv::Mat& image, cv::Mat& depth);
 
 /// Writes a sequence folder of `frames` frames with its ground truth.

@@ -4,7 +4,7 @@
 namespace mivo {
 namespace {
 
-TEST_F(RecordingTest, OfficeIsTrackedToCentimetres) {
+TEST_F(RecordingTest, OfficeIsTrackedToCentimeters) {
   const std::string sequence = recording("sun3d_xtion_fragA");
   const std::string trajectory = folder_ / "trajectory.txt";
   const ProcessResult tracked = run("run_sequence", {sequence, "--output", trajectory});
@@ -14,7 +14,7 @@ TEST_F(RecordingTest, OfficeIsTrackedToCentimetres) {
   ASSERT_EQ(evaluated.exit_code, 0) << evaluated.errors;
   EXPECT_EQ(valueOf(tracked.output, "frames"), 49);  // one of 50 repeats the color image before it
   EXPECT_EQ(valueOf(tracked.output, "lost"), 0);
-  // The truth itself is good to a centimetre.
+  // The truth itself is good to a centimeter.
   EXPECT_LT(valueOf(evaluated.output, "ate_rmse_m"), 0.03);
 }
 

@@ -7,7 +7,7 @@
 Plain and slow on purpose: complex products of quaternions instead of matrices, minima over whole
 lists instead of searches. With the truth at the stamps of the estimate, these are also the figures of
 the published tools of the TUM RGB-D benchmark (fixed delta, no subsampling), and those of ATE, from
-frame to frame and over metres are evo's: evo_ape --align [--correct_scale], evo_rpe --delta 1
+frame to frame and over meters are evo's: evo_ape --align [--correct_scale], evo_rpe --delta 1
 --delta_unit f|m --pairs_from_reference, with --pose_relation trans_part or angle_deg.
 """
 import math

@@ -115,7 +115,7 @@ TEST_F(RunSequenceTest, BrokenFramesAreSkippedAndTold) {
   EXPECT_EQ(valueOf(result.output, "skipped_frames"), 2);
   EXPECT_EQ(valueOf(result.output, "frames"), kFrames - 2);
   EXPECT_EQ(readTrajectory(output_).size(), std::size_t{kFrames - 2});
-  EXPECT_EQ(valueOf(result.output, "skipped (the colour image is truncated)"), 2);
+  EXPECT_EQ(valueOf(result.output, "skipped (the color image is truncated)"), 2);
   // Told once per reason.
   EXPECT_EQ(result.errors, "skipped: " + image(0) + " is truncated\n");
   EXPECT_LT(largestError(1), kTolerance);
@@ -141,13 +141,13 @@ TEST_F(RunSequenceTest, NothingTrackedIsAnErrorThatNamesTheDepth) {
   folder_.write("sequence/camera.txt", "160 120 140 140 79.5 59.5 1000000\n");
   const ProcessResult result = track({});
   EXPECT_EQ(result.exit_code, 1);
-  EXPECT_EQ(valueOf(result.output, "initialising"), kFrames);
+  EXPECT_EQ(valueOf(result.output, "initializing"), kFrames);
   EXPECT_EQ(result.errorLines(), 1U) << result.errors;
   EXPECT_NE(result.errors.find("nothing was tracked: too few points with depth and texture (12 of "
                                "12 frames); median depth seen 0.0"),
             std::string::npos)
       << result.errors;
-  EXPECT_NE(result.errors.find("(camera.txt: 1000000 units per metre)?"), std::string::npos)
+  EXPECT_NE(result.errors.find("(camera.txt: 1000000 units per meter)?"), std::string::npos)
       << result.errors;
 }
 
@@ -178,7 +178,7 @@ TEST_F(RunSequenceTest, NoFileIsTouchedUnlessAllCanBeWritten) {
   EXPECT_EQ(contentOf(sequence_ + "/groundtruth.txt"), truth);
 }
 
-TEST_F(RunSequenceTest, RepeatedColourImagesAreLeftOutAndTold) {
+TEST_F(RunSequenceTest, RepeatedColorImagesAreLeftOutAndTold) {
   for (const int i : {4, 9}) {
     std::filesystem::copy_file(image(i - 1), image(i),
                                std::filesystem::copy_options::overwrite_existing);
@@ -187,7 +187,7 @@ TEST_F(RunSequenceTest, RepeatedColourImagesAreLeftOutAndTold) {
   ASSERT_EQ(result.exit_code, 0) << result.errors;
   EXPECT_EQ(valueOf(result.output, "tracked"), kFrames - 2);
   EXPECT_EQ(valueOf(result.output,
-                    "skipped (the colour image repeats the one before while the depth goes on)"),
+                    "skipped (the color image repeats the one before while the depth goes on)"),
             2);
   EXPECT_EQ(result.errorLines(), 1U) << result.errors;
   EXPECT_LT(largestError(), kTolerance);
@@ -211,8 +211,8 @@ TEST_F(RunSequenceTest, DepthThatIsStoredWrongIsNamed) {
   const std::string camera = contentOf(sequence_ + "/camera.txt");
   folder_.write("sequence/camera.txt", "160 120 140 140 79.5 59.5 5000\n");
   EXPECT_NE(noteOf().find("median depth seen 0.3"), std::string::npos);
-  EXPECT_NE(noteOf().find("is the depth unit wrong (camera.txt: 5000 units per metre)? With 1000 "
-                          "units per metre it would be 1."),
+  EXPECT_NE(noteOf().find("is the depth unit wrong (camera.txt: 5000 units per meter)? With 1000 "
+                          "units per meter it would be 1."),
             std::string::npos);
   folder_.write("sequence/camera.txt", camera);
   rewrite([](unsigned value) { return value << 3 | value >> 13; });  // as SUN RGB-D has it
@@ -223,7 +223,7 @@ TEST_F(RunSequenceTest, DepthThatIsStoredWrongIsNamed) {
   rewrite([](unsigned value) { return value >> 3 | value << 13; });
   EXPECT_EQ(track({"--force"}).errors, "");
   rewrite([](unsigned value) { return value >> 3 | value << 13; });
-  EXPECT_NE(noteOf().find("neighbouring values jump, unless their 16 bits are rotated by three to "
+  EXPECT_NE(noteOf().find("neighboring values jump, unless their 16 bits are rotated by three to "
                           "the left"),
             std::string::npos);
   rewrite([](unsigned value) { return ((value << 3 | value >> 13) & 0xFFFF) / 80 * 80; });

@@ -81,7 +81,7 @@ class TrackingRunTest : public ::testing::Test {
 
   /// What is said of a run in which nothing was tracked.
   std::string refusal(const TrackingSummary& summary) const {
-    return errorText([&] { requireTracked(summary, options_.parameters.depth, "5000 per metre"); });
+    return errorText([&] { requireTracked(summary, options_.parameters.depth, "5000 per meter"); });
   }
 
   TemporaryFolder folder_;
@@ -129,7 +129,7 @@ class ChangingSource : public PlaneSource {
   bool changes_camera_;
   int read_ = 0;
   Camera other_;
-  std::map<std::string, std::size_t> left_out_ = {{"colour image without a partner", 3}};
+  std::map<std::string, std::size_t> left_out_ = {{"color image without a partner", 3}};
 };
 
 TEST_F(TrackingRunTest, TimeSetBackGoesOnInAnotherFileAtTheLastPose) {
@@ -142,7 +142,7 @@ TEST_F(TrackingRunTest, TimeSetBackGoesOnInAnotherFileAtTheLastPose) {
   const TrackingSummary summary = trackFrames(source, options_);
   EXPECT_EQ(summary.segments, 2);
   EXPECT_EQ(summary.frames, 10U);
-  EXPECT_EQ(summary.left_out, (CountByReason{{"colour image without a partner", 3}}));
+  EXPECT_EQ(summary.left_out, (CountByReason{{"color image without a partner", 3}}));
   EXPECT_EQ(written(), (std::vector<int>{0, 1, 2, 3, 4}));
   const Trajectory second = readTrajectory(folder_ / "trajectory_2.txt");
   ASSERT_EQ(second.size(), 5U);
@@ -206,7 +206,7 @@ TEST_F(TrackingRunTest, FramesBeforeTheFirstKeyframeAreNeverWritten) {
   const TrackingSummary summary = track(6, [](int i, Frame& frame) {
     if (i < 2) frame.depth = cv::Scalar(0.0);
   });
-  EXPECT_EQ(summary.initialising, 2U);
+  EXPECT_EQ(summary.initializing, 2U);
   EXPECT_EQ(written(), (std::vector<int>{2, 3, 4, 5}));
   EXPECT_EQ(numRows(), 6);
 }
@@ -237,7 +237,7 @@ TEST_F(TrackingRunTest, NothingTrackedBecauseOfTheDepthUnitIsSaid) {
             0U)
       << text;
   EXPECT_NE(text.find(" m, 100 % of the pixels, outside of 0.3 to 10 m: is the depth unit wrong "
-                      "(5000 per metre)?"),
+                      "(5000 per meter)?"),
             std::string::npos)
       << text;
 }

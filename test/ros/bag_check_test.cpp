@@ -14,7 +14,7 @@
 namespace mivo {
 namespace {
 
-/// Boxes in front of a wall, each with a grey level of its own; depth moved by (dx, dy) pixels.
+/// Boxes in front of a wall, each with a gray level of its own; depth moved by (dx, dy) pixels.
 Frame boxes(int dx, int dy, unsigned seed) {
   std::mt19937 random(seed);
   const auto uniform = [&](int low, int high) {
@@ -69,8 +69,8 @@ class BagCheckTest : public ::testing::Test {
   std::vector<std::string> warningsOf(const SmallBag::Change& change) {
     const std::string path = folder_ / "test.bag";
     SmallBag::write(path, 0, 40, [&](int i, SmallBag::Messages& m) {
-      std::fill(m.colour.data.begin(), m.colour.data.end(), std::uint8_t{100});
-      for (std::size_t k = 0; k < m.colour.data.size(); k += 7) m.colour.data[k] = 140;
+      std::fill(m.color.data.begin(), m.color.data.end(), std::uint8_t{100});
+      for (std::size_t k = 0; k < m.color.data.size(); k += 7) m.color.data[k] = 140;
       change(i, m);
     });
     return checkBag({path}, {}).warnings;
@@ -92,11 +92,11 @@ TEST_F(BagCheckTest, WhatIsWrongIsSaid) {
     if (i > 10 && i < 20) m.depth.data.clear();
   });
   EXPECT_TRUE(has(gap, "/camera/depth_registered/image_raw: 1 gaps, the longest 0.333 s"));
-  EXPECT_TRUE(has(gap, "9 left out: colour image without a partner"));
+  EXPECT_TRUE(has(gap, "9 left out: color image without a partner"));
 
   EXPECT_TRUE(has(warningsOf([](int i, SmallBag::Messages& m) {
                     const auto jump = static_cast<std::uint8_t>(i < 20 ? 100 : 180);
-                    std::fill(m.colour.data.begin(), m.colour.data.end(), jump);
+                    std::fill(m.color.data.begin(), m.color.data.end(), jump);
                   }),
                   "the exposure jumps 1 times"));
   EXPECT_TRUE(has(warningsOf([](int, SmallBag::Messages& m) {
@@ -112,7 +112,7 @@ TEST_F(BagCheckTest, WhatIsWrongIsSaid) {
   EXPECT_TRUE(has(warningsOf([](int i, SmallBag::Messages& m) {
                     m.depth.header.stamp = toTime(SmallBag::stamp(i) + 0.2);
                   }),
-                  "colour and depth that came together are stamped 0.200 s apart"));
+                  "color and depth that came together are stamped 0.200 s apart"));
 }
 
 TEST_F(BagCheckTest, AReportHasALineForEachFigureAndARowForEachFrame) {
@@ -122,7 +122,7 @@ TEST_F(BagCheckTest, AReportHasALineForEachFigureAndARowForEachFrame) {
   std::ostringstream text;
   print(text, report);
   EXPECT_NE(text.str().find("layout: openni2\n"), std::string::npos);
-  EXPECT_NE(text.str().find("colour: /camera/rgb/image_raw, 12 messages, 30.00 Hz"),
+  EXPECT_NE(text.str().find("color: /camera/rgb/image_raw, 12 messages, 30.00 Hz"),
             std::string::npos)
       << text.str();
   const std::string csv = toCsv(report);

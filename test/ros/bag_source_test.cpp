@@ -28,11 +28,11 @@ SequenceCamera makeCamera(double units = 5000.0) {
   camera.camera.fx = camera.camera.fy = 30.0;
   camera.camera.cx = 15.5;
   camera.camera.cy = 11.5;
-  camera.depth_units_per_metre = units;
+  camera.depth_units_per_meter = units;
   return camera;
 }
 
-cv::Mat colour(int i) {
+cv::Mat color(int i) {
   cv::Mat image(kHeight, kWidth, CV_8UC3);
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {
@@ -61,11 +61,11 @@ double stamp(int i) {
 
 class BagSourceTest : public ::testing::Test {
  protected:
-  /// Depth comes 4 ms later than colour, as Kinects have it.
+  /// Depth comes 4 ms later than color, as Kinects have it.
   void writeBag(const BagLayout& layout, BagImages images, int frames, double units = 5000.0) {
     BagWriter writer(path_, layout, makeCamera(units), images, Overwrite::kNo);
     for (int i = 0; i < frames; ++i) {
-      writer.writeColour(stamp(i), colour(i));
+      writer.writeColor(stamp(i), color(i));
       writer.writeDepth(stamp(i) + 0.004, depth(i));
     }
   }
@@ -84,7 +84,7 @@ TEST_F(BagSourceTest, FloatDepthHasTheBitsOfTheTracker) {
   for (int i = 0; i < 3; ++i) {
     ASSERT_EQ(FrameSource::Status::kFrame, source.next(frame, fault)) << fault.text;
     EXPECT_EQ(stamp(i), frame.stamp);
-    EXPECT_EQ(0.0, cv::norm(toGrey(colour(i), ChannelOrder::kBgr), frame.image, cv::NORM_INF));
+    EXPECT_EQ(0.0, cv::norm(toGray(color(i), ChannelOrder::kBgr), frame.image, cv::NORM_INF));
     ASSERT_EQ(CV_32FC1, frame.depth.type());
     EXPECT_EQ(
         static_cast<float>(depth(i).at<std::uint16_t>(5, 7)) * static_cast<float>(1.0 / 5000.0),
@@ -94,7 +94,7 @@ TEST_F(BagSourceTest, FloatDepthHasTheBitsOfTheTracker) {
   EXPECT_EQ(FrameSource::Status::kEnd, source.next(frame, fault));
 }
 
-TEST_F(BagSourceTest, IntegerAndCompressedDepthAreMillimetres) {
+TEST_F(BagSourceTest, IntegerAndCompressedDepthAreMillimeters) {
   for (const BagImages images : {BagImages::kRaw, BagImages::kCompressed}) {
     path_ = folder_ / (images == BagImages::kRaw ? "raw.bag" : "compressed.bag");
     writeBag(bagLayout("realsense"), images, 2, 1000.0);
@@ -102,14 +102,14 @@ TEST_F(BagSourceTest, IntegerAndCompressedDepthAreMillimetres) {
     Frame frame;
     FrameFault fault;
     ASSERT_EQ(FrameSource::Status::kFrame, source.next(frame, fault)) << fault.text;
-    EXPECT_EQ(0.0, cv::norm(toGrey(colour(0), ChannelOrder::kBgr), frame.image, cv::NORM_INF));
+    EXPECT_EQ(0.0, cv::norm(toGray(color(0), ChannelOrder::kBgr), frame.image, cv::NORM_INF));
     EXPECT_EQ(0.0, cv::norm(depth(0), frame.depth, cv::NORM_INF));
     EXPECT_EQ(0.001, frame.depth_unit);
-    EXPECT_EQ(1000.0, source.depthUnitsPerMetre());
+    EXPECT_EQ(1000.0, source.depthUnitsPerMeter());
   }
 }
 
-TEST_F(BagSourceTest, OtherUnitsAreRoundedToMillimetres) {
+TEST_F(BagSourceTest, OtherUnitsAreRoundedToMillimeters) {
   writeBag(bagLayout("openni2"), BagImages::kRaw, 1, 5000.0);
   BagSource source(path_, {});
   Frame frame;
@@ -132,17 +132,17 @@ TEST_F(BagSourceTest, RangeTakesAPart) {
 TEST_F(BagSourceTest, ImagesWithoutPartnerAreLeftOut) {
   {
     BagWriter writer(path_, bagLayout("tum"), makeCamera(), BagImages::kRaw, Overwrite::kNo);
-    writer.writeColour(stamp(0), colour(0));
-    writer.writeColour(stamp(10), colour(1));
+    writer.writeColor(stamp(0), color(0));
+    writer.writeColor(stamp(10), color(1));
     writer.writeDepth(stamp(10) + 0.019, depth(1));
-    writer.writeColour(stamp(20), colour(2));
+    writer.writeColor(stamp(20), color(2));
     writer.writeDepth(stamp(20) + 0.021, depth(2));
   }
   BagSource source(path_, {});
   ASSERT_EQ(1U, source.size());
-  EXPECT_EQ(stamp(10), source.pairs().front().colour.stamp);
+  EXPECT_EQ(stamp(10), source.pairs().front().color.stamp);
   const std::map<std::string, std::size_t> expected = {
-      {"colour image without a partner within 20 ms", 2},
+      {"color image without a partner within 20 ms", 2},
       {"depth image without a partner within 20 ms", 1}};
   EXPECT_EQ(source.leftOut(), expected);
 }
@@ -179,7 +179,7 @@ TEST_F(BagSourceTest, DoubledStampsAreLeftOutAndTold) {
   {
     BagWriter writer(path_, bagLayout("tum"), makeCamera(), BagImages::kRaw, Overwrite::kNo);
     for (const int i : {0, 1, 1, 2}) {
-      writer.writeColour(stamp(i), colour(i));
+      writer.writeColor(stamp(i), color(i));
       writer.writeDepth(stamp(i) + 0.001 * i, depth(i));
     }
   }
@@ -194,7 +194,7 @@ TEST_F(BagSourceTest, ImagesWithoutTimesAreRefused) {
   {
     BagWriter writer(path_, bagLayout("tum"), makeCamera(), BagImages::kRaw, Overwrite::kNo);
     for (int i = 0; i < 3; ++i) {
-      writer.writeColour(0.0, colour(i));
+      writer.writeColor(0.0, color(i));
       writer.writeDepth(0.0, depth(i));
     }
   }
@@ -216,7 +216,7 @@ TEST_F(BagSourceTest, GroundTruthComesBackAndPlacesOdomInTheWorld) {
   {
     BagWriter writer(path_, bagLayout("openni2"), makeCamera(), BagImages::kRaw, Overwrite::kNo);
     EXPECT_TRUE(writer.writeGroundTruth(truth, stamp(0)));
-    writer.writeColour(stamp(0), colour(0));
+    writer.writeColor(stamp(0), color(0));
     writer.writeDepth(stamp(0), depth(0));
   }
   const Trajectory read = BagSource(path_, {}).groundTruth();
@@ -263,7 +263,7 @@ TEST(BagWriterTest, RefusesWhatALayoutCannotHold) {
   EXPECT_EQ("precious", contentOf(existing));
   BagWriter writer(folder / "c.bag", bagLayout("tum"), makeCamera(), BagImages::kRaw,
                    Overwrite::kNo);
-  EXPECT_ERROR(writer.writeColour(0.0, cv::Mat(kHeight, kWidth + 1, CV_8UC3)), "33 x 24");
+  EXPECT_ERROR(writer.writeColor(0.0, cv::Mat(kHeight, kWidth + 1, CV_8UC3)), "33 x 24");
   EXPECT_ERROR(writer.writeDepth(0.0, cv::Mat(kHeight, kWidth, CV_32FC1)), "16 bits");
 }
 

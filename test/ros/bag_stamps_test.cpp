@@ -21,15 +21,15 @@ class BagStampsTest : public ::testing::Test {
   void write(const SmallBag::Change& change, int frames = 40) {
     SmallBag::write(path_, 0, frames, change);
   }
-  /// The same stamps for colour and depth of a frame.
+  /// The same stamps for color and depth of a frame.
   void writeStamps(const std::function<double(int)>& stamp) {
     write([&](int i, SmallBag::Messages& m) {
-      m.colour.header.stamp = m.depth.header.stamp = m.info.header.stamp = toTime(stamp(i));
+      m.color.header.stamp = m.depth.header.stamp = m.info.header.stamp = toTime(stamp(i));
     });
   }
   static std::vector<double> stampsOf(const BagSource& source) {
     std::vector<double> stamps;
-    for (const BagSource::Pair& pair : source.pairs()) stamps.push_back(pair.colour.stamp);
+    for (const BagSource::Pair& pair : source.pairs()) stamps.push_back(pair.color.stamp);
     return stamps;
   }
 
@@ -94,7 +94,7 @@ TEST_F(BagStampsTest, ARecordingInAnotherOrderIsSorted) {
   EXPECT_EQ(reversed.size(), 40U);
   write([](int i, SmallBag::Messages& m) {  // in blocks of a second and more
     m.recorded = toTime(SmallBag::stamp(i * 7 % 40));
-    for (sensor_msgs::Image* image : {&m.colour, &m.depth}) {
+    for (sensor_msgs::Image* image : {&m.color, &m.depth}) {
       image->header.stamp = toTime(SmallBag::kFirst + 2.0 * i);
     }
   });
@@ -104,7 +104,7 @@ TEST_F(BagStampsTest, ARecordingInAnotherOrderIsSorted) {
             "the images were recorded in another order than that of their stamps, and are sorted");
   EXPECT_TRUE(std::is_sorted(shuffled.pairs().begin(), shuffled.pairs().end(),
                              [](const BagSource::Pair& a, const BagSource::Pair& b) {
-                               return a.colour.stamp < b.colour.stamp;
+                               return a.color.stamp < b.color.stamp;
                              }));
 }
 
@@ -113,13 +113,13 @@ TEST_F(BagStampsTest, ClocksApartArePairedNeverAndTheOffsetIsTold) {
     m.depth.header.stamp = toTime(SmallBag::stamp(i) + 0.7);
   });
   EXPECT_ERROR(BagSource(path_, {}),
-               "colour and depth that come together are stamped 0.7 s apart (depth later): two "
+               "color and depth that come together are stamped 0.7 s apart (depth later): two "
                "clocks");
   // Without a partner at all.
   write([](int i, SmallBag::Messages& m) {
     m.depth.header.stamp = toTime(SmallBag::stamp(i) + 2.0);
   });
-  EXPECT_ERROR(BagSource(path_, {}), "depth that comes with a colour image is stamped 2.0");
+  EXPECT_ERROR(BagSource(path_, {}), "depth that comes with a color image is stamped 2.0");
 }
 
 TEST_F(BagStampsTest, AnOffsetWithinPairsIsTold) {
@@ -127,7 +127,7 @@ TEST_F(BagStampsTest, AnOffsetWithinPairsIsTold) {
     m.depth.header.stamp = toTime(SmallBag::stamp(i) + 0.015);
   });
   EXPECT_EQ(BagSource(path_, {}).notice(),
-            "depth is stamped 15.0 ms later than the colour images that it is paired with");
+            "depth is stamped 15.0 ms later than the color images that it is paired with");
 }
 
 TEST_F(BagStampsTest, ALeadingCalibrationOfZerosIsPassedOver) {

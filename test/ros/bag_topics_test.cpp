@@ -14,12 +14,12 @@ constexpr char kInfo[] = "sensor_msgs/CameraInfo";
 
 TEST(FindTopicsTest, EveryLayoutIsFound) {
   for (const BagLayout& layout : bagLayouts()) {
-    const BagContents contents = {{layout.topics.colour, kImage},
+    const BagContents contents = {{layout.topics.color, kImage},
                                   {layout.topics.depth, kImage},
                                   {layout.topics.camera_info, kInfo},
                                   {"/imu", "sensor_msgs/Imu"}};
     const RgbdTopics topics = findTopics(contents, {});
-    EXPECT_EQ(layout.topics.colour, topics.colour);
+    EXPECT_EQ(layout.topics.color, topics.color);
     EXPECT_EQ(layout.topics.depth, topics.depth);
     EXPECT_EQ(layout.topics.camera_info, topics.camera_info);
   }
@@ -31,7 +31,7 @@ TEST(FindTopicsTest, CompressedTopicsAreFoundWhereRawOnesAreMissing) {
                   {"/camera/aligned_depth_to_color/image_raw/compressedDepth", kCompressed},
                   {"/camera/color/camera_info", kInfo}},
                  {});
-  EXPECT_EQ("/camera/color/image_raw/compressed", topics.colour);
+  EXPECT_EQ("/camera/color/image_raw/compressed", topics.color);
   EXPECT_EQ("/camera/aligned_depth_to_color/image_raw/compressedDepth", topics.depth);
   EXPECT_EQ("/camera/color/camera_info", topics.camera_info);
 }
@@ -54,13 +54,13 @@ TEST(FindTopicsTest, WantedTopicsAreTaken) {
                                 {"/camera/depth/image", kImage},
                                 {"/camera/rgb/camera_info", kInfo}};
   const RgbdTopics topics = findTopics(contents, {"/a/image", "/b/depth", ""});
-  EXPECT_EQ("/a/image", topics.colour);
+  EXPECT_EQ("/a/image", topics.color);
   EXPECT_EQ("/b/depth", topics.depth);
   EXPECT_EQ("/a/camera_info", topics.camera_info);
   EXPECT_EQ("/c/info", findTopics(contents, {"/a/image", "/b/depth", "/c/info"}).camera_info);
 }
 
-TEST(FindTopicsTest, AWantedColourTopicGoesWithTheDepthOfItsDriver) {
+TEST(FindTopicsTest, AWantedColorTopicGoesWithTheDepthOfItsDriver) {
   const BagContents contents = {{"/camera/rgb/image_color", kImage},
                                 {"/camera/depth/image", kImage},
                                 {"/camera/rgb/image_raw", kImage},

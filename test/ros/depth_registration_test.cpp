@@ -20,7 +20,7 @@ Camera cameraOf(int width, int height, double f) {
   return camera;
 }
 
-/// Depth of the plane n . X = distance, in metres.
+/// Depth of the plane n . X = distance, in meters.
 cv::Mat planeDepth(const Camera& camera, const Eigen::Vector3d& normal, double distance) {
   cv::Mat depth(camera.height, camera.width, CV_32FC1);
   for (int y = 0; y < camera.height; ++y) {
@@ -61,41 +61,41 @@ TEST(EnlargeDepthTest, OtherRatiosAreLeftAlone) {
   }
 }
 
-/// 5 cm to the left of the colour camera, turned a little, as of a Kinect.
-Eigen::Isometry3d depthInColour() {
+/// 5 cm to the left of the color camera, turned a little, as of a Kinect.
+Eigen::Isometry3d depthInColor() {
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
   T.translation() << -0.05, 0.002, 0.004;
   T.linear() = Eigen::AngleAxisd(0.01, Eigen::Vector3d(0.3, 1.0, 0.2).normalized()).matrix();
   return T;
 }
 
-TEST(DepthRegistrationTest, APlaneIsWhereTheColourCameraSeesIt) {
+TEST(DepthRegistrationTest, APlaneIsWhereTheColorCameraSeesIt) {
   const Camera depth_camera = cameraOf(160, 120, 145.0);
-  Camera colour_camera = cameraOf(160, 120, 130.0);
-  colour_camera.distortion = {0.1, -0.2, 0.001, 0.0, 0.0};
-  const Eigen::Isometry3d T = depthInColour();
+  Camera color_camera = cameraOf(160, 120, 130.0);
+  color_camera.distortion = {0.1, -0.2, 0.001, 0.0, 0.0};
+  const Eigen::Isometry3d T = depthInColor();
   const Eigen::Vector3d normal = Eigen::Vector3d(0.1, 0.2, 1.0).normalized();  // in depth
   const Eigen::Vector3d turned = T.linear() * normal;
   const double distance = 2.0 + turned.dot(T.translation());
   DepthRegistration registration;
-  const DepthImage seen = registration.toColour({planeDepth(depth_camera, normal, 2.0), 0.001},
-                                                depth_camera, colour_camera, T);
-  const cv::Mat expected = planeDepth(colour_camera, turned, distance);
+  const DepthImage seen = registration.toColor({planeDepth(depth_camera, normal, 2.0), 0.001},
+                                               depth_camera, color_camera, T);
+  const cv::Mat expected = planeDepth(color_camera, turned, distance);
   int readings = 0;
   for (int y = 12; y < 108; ++y) {
     for (int x = 16; x < 138; ++x) {
-      const float metres = seen.image.at<float>(y, x);
-      ASSERT_FALSE(std::isnan(metres)) << x << " " << y;  // no seams
+      const float meters = seen.image.at<float>(y, x);
+      ASSERT_FALSE(std::isnan(meters)) << x << " " << y;  // no seams
       // A pixel's depth is that of the reading beside it: half a pixel of the slope.
-      EXPECT_NEAR(metres, expected.at<float>(y, x), 0.006F);
+      EXPECT_NEAR(meters, expected.at<float>(y, x), 0.006F);
       ++readings;
     }
   }
   EXPECT_GT(readings, 1000);
 }
 
-TEST(DepthRegistrationTest, WhatTheColourCameraDoesNotSeeIsHidden) {
-  // A board 1 m away hides a part of the wall at 3 m from the colour camera, to its left, that the
+TEST(DepthRegistrationTest, WhatTheColorCameraDoesNotSeeIsHidden) {
+  // A board 1 m away hides a part of the wall at 3 m from the color camera, to its left, that the
   // depth camera sees.
   const Camera camera = cameraOf(160, 120, 140.0);
   cv::Mat depth(120, 160, CV_16UC1, cv::Scalar(3000));
@@ -103,7 +103,7 @@ TEST(DepthRegistrationTest, WhatTheColourCameraDoesNotSeeIsHidden) {
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
   T.translation().x() = 0.1;  // of depth, to the right
   DepthRegistration registration;
-  const DepthImage seen = registration.toColour({depth, 0.001}, camera, camera, T);
+  const DepthImage seen = registration.toColor({depth, 0.001}, camera, camera, T);
   // The board moves by 14 pixels, the wall by 4.7: between them is no reading, but the board hides
   // the wall on its other side.
   const auto at = [&](int x) { return seen.image.at<float>(60, x); };
@@ -116,8 +116,8 @@ TEST(DepthRegistrationTest, WhatTheColourCameraDoesNotSeeIsHidden) {
 TEST(DepthRegistrationTest, AnotherSizeThanItsCalibrationsIsRefused) {
   const Camera camera = cameraOf(160, 120, 140.0);
   DepthRegistration registration;
-  EXPECT_ERROR(registration.toColour({cv::Mat(60, 80, CV_16UC1), 0.001}, camera, camera,
-                                     Eigen::Isometry3d::Identity()),
+  EXPECT_ERROR(registration.toColor({cv::Mat(60, 80, CV_16UC1), 0.001}, camera, camera,
+                                    Eigen::Isometry3d::Identity()),
                "80 x 60 pixels, but its camera_info is for 160 x 120");
 }
 

@@ -49,33 +49,33 @@ bool equal(const cv::Mat& a, const cv::Mat& b) {
   return a.type() == b.type() && a.size() == b.size() && cv::norm(a, b, cv::NORM_INF) == 0.0;
 }
 
-TEST(ToGreyImageTest, Mono8IsNotCopied) {
+TEST(ToGrayImageTest, Mono8IsNotCopied) {
   const sensor_msgs::Image message = makeMessage(pattern(CV_8UC1), encodings::MONO8);
-  EXPECT_EQ(message.data.data(), toGreyImage(message).data);
+  EXPECT_EQ(message.data.data(), toGrayImage(message).data);
 }
 
-TEST(ToGreyImageTest, ColourEncodingsGiveTheGreyOfTheirOrder) {
+TEST(ToGrayImageTest, ColorEncodingsGiveTheGrayOfTheirOrder) {
   const cv::Mat three = pattern(CV_8UC3);
   const cv::Mat four = pattern(CV_8UC4);
   EXPECT_TRUE(
-      equal(toGrey(three, ChannelOrder::kRgb), toGreyImage(makeMessage(three, encodings::RGB8))));
+      equal(toGray(three, ChannelOrder::kRgb), toGrayImage(makeMessage(three, encodings::RGB8))));
   EXPECT_TRUE(
-      equal(toGrey(three, ChannelOrder::kBgr), toGreyImage(makeMessage(three, encodings::BGR8))));
+      equal(toGray(three, ChannelOrder::kBgr), toGrayImage(makeMessage(three, encodings::BGR8))));
   EXPECT_TRUE(
-      equal(toGrey(four, ChannelOrder::kRgb), toGreyImage(makeMessage(four, encodings::RGBA8))));
+      equal(toGray(four, ChannelOrder::kRgb), toGrayImage(makeMessage(four, encodings::RGBA8))));
   EXPECT_TRUE(
-      equal(toGrey(four, ChannelOrder::kBgr), toGreyImage(makeMessage(four, encodings::BGRA8))));
+      equal(toGray(four, ChannelOrder::kBgr), toGrayImage(makeMessage(four, encodings::BGRA8))));
   // The two orders differ, so that a mix-up cannot pass.
-  EXPECT_FALSE(equal(toGrey(three, ChannelOrder::kRgb), toGrey(three, ChannelOrder::kBgr)));
+  EXPECT_FALSE(equal(toGray(three, ChannelOrder::kRgb), toGray(three, ChannelOrder::kBgr)));
 }
 
-TEST(ToGreyImageTest, PureRedIsDarkerThanPureGreen) {
+TEST(ToGrayImageTest, PureRedIsDarkerThanPureGreen) {
   const cv::Mat red(kHeight, kWidth, CV_8UC3, cv::Scalar(255, 0, 0));
-  EXPECT_EQ(76, toGreyImage(makeMessage(red, encodings::RGB8)).at<std::uint8_t>(0, 0));  // 0.299
-  EXPECT_EQ(29, toGreyImage(makeMessage(red, encodings::BGR8)).at<std::uint8_t>(0, 0));  // 0.114
+  EXPECT_EQ(76, toGrayImage(makeMessage(red, encodings::RGB8)).at<std::uint8_t>(0, 0));  // 0.299
+  EXPECT_EQ(29, toGrayImage(makeMessage(red, encodings::BGR8)).at<std::uint8_t>(0, 0));  // 0.114
 }
 
-TEST(ToGreyImageTest, MosaicOfOneColourBecomesItsGrey) {
+TEST(ToGrayImageTest, MosaicOfOneColorBecomesItsGray) {
   // A red surface: only the red cells of the mosaic are lit.
   for (const auto& [encoding, x, y] :
        {std::tuple(encodings::BAYER_RGGB8, 0, 0), std::tuple(encodings::BAYER_BGGR8, 1, 1),
@@ -84,59 +84,59 @@ TEST(ToGreyImageTest, MosaicOfOneColourBecomesItsGrey) {
     for (int v = y; v < 16; v += 2) {
       for (int u = x; u < 16; u += 2) mosaic.at<std::uint8_t>(v, u) = 200;
     }
-    const cv::Mat grey = toGreyImage(makeMessage(mosaic, encoding));
-    EXPECT_NEAR(0.299 * 200, grey.at<std::uint8_t>(8, 8), 1.0) << encoding;
+    const cv::Mat gray = toGrayImage(makeMessage(mosaic, encoding));
+    EXPECT_NEAR(0.299 * 200, gray.at<std::uint8_t>(8, 8), 1.0) << encoding;
   }
 }
 
-TEST(ToGreyImageTest, Yuv422OfGreyKeepsItsBrightness) {
+TEST(ToGrayImageTest, Yuv422OfGrayKeepsItsBrightness) {
   cv::Mat uyvy(kHeight, kWidth, CV_8UC2, cv::Scalar(128, 180));  // U or V, then Y
-  const int grey = toGreyImage(makeMessage(uyvy, encodings::YUV422)).at<std::uint8_t>(1, 1);
-  EXPECT_NEAR((180 - 16) * 255.0 / 219.0, grey, 2.0);  // video range
+  const int gray = toGrayImage(makeMessage(uyvy, encodings::YUV422)).at<std::uint8_t>(1, 1);
+  EXPECT_NEAR((180 - 16) * 255.0 / 219.0, gray, 2.0);  // video range
 }
 
-TEST(ToGreyImageTest, Mono16OfBothByteOrdersGivesTheHighByte) {
+TEST(ToGrayImageTest, Mono16OfBothByteOrdersGivesTheHighByte) {
   cv::Mat image(kHeight, kWidth, CV_16UC1, cv::Scalar(0x4020));
-  EXPECT_EQ(64, toGreyImage(makeMessage(image, encodings::MONO16)).at<std::uint8_t>(0, 0));
+  EXPECT_EQ(64, toGrayImage(makeMessage(image, encodings::MONO16)).at<std::uint8_t>(0, 0));
   cv::Mat swapped(kHeight, kWidth, CV_16UC1, cv::Scalar(0x2040));
   sensor_msgs::Image message = makeMessage(swapped, encodings::MONO16);
   message.is_bigendian = 1;
-  EXPECT_EQ(64, toGreyImage(message).at<std::uint8_t>(0, 0));
+  EXPECT_EQ(64, toGrayImage(message).at<std::uint8_t>(0, 0));
 }
 
-TEST(ToGreyImageTest, SixteenBitsOfColourAreThoseOfEight) {
+TEST(ToGrayImageTest, SixteenBitsOfColorAreThoseOfEight) {
   const cv::Mat three = pattern(CV_8UC3);
   cv::Mat wide;
   three.convertTo(wide, CV_16UC3, 257.0);
   cv::Mat alpha;
   pattern(CV_8UC4).convertTo(alpha, CV_16UC4, 257.0);
   EXPECT_TRUE(
-      equal(toGreyImage(makeMessage(three, "rgb8")), toGreyImage(makeMessage(wide, "rgb16"))));
+      equal(toGrayImage(makeMessage(three, "rgb8")), toGrayImage(makeMessage(wide, "rgb16"))));
   EXPECT_TRUE(
-      equal(toGreyImage(makeMessage(three, "bgr8")), toGreyImage(makeMessage(wide, "bgr16"))));
-  EXPECT_TRUE(equal(toGreyImage(makeMessage(pattern(CV_8UC4), "bgra8")),
-                    toGreyImage(makeMessage(alpha, "bgra16"))));
+      equal(toGrayImage(makeMessage(three, "bgr8")), toGrayImage(makeMessage(wide, "bgr16"))));
+  EXPECT_TRUE(equal(toGrayImage(makeMessage(pattern(CV_8UC4), "bgra8")),
+                    toGrayImage(makeMessage(alpha, "bgra16"))));
   // OpenCV's own names mean OpenCV's order.
   EXPECT_TRUE(
-      equal(toGreyImage(makeMessage(three, "8UC3")), toGreyImage(makeMessage(three, "bgr8"))));
-  EXPECT_TRUE(equal(toGreyImage(makeMessage(pattern(CV_8UC4), "8UC4")),
-                    toGreyImage(makeMessage(pattern(CV_8UC4), "bgra8"))));
+      equal(toGrayImage(makeMessage(three, "8UC3")), toGrayImage(makeMessage(three, "bgr8"))));
+  EXPECT_TRUE(equal(toGrayImage(makeMessage(pattern(CV_8UC4), "8UC4")),
+                    toGrayImage(makeMessage(pattern(CV_8UC4), "bgra8"))));
 }
 
-TEST(ToGreyImageTest, MosaicsOfSixteenBitsAreThoseOfEight) {
+TEST(ToGrayImageTest, MosaicsOfSixteenBitsAreThoseOfEight) {
   for (const std::string order : {"rggb", "bggr", "gbrg", "grbg"}) {
     const cv::Mat mosaic = pattern(CV_8UC1);
     cv::Mat wide;
     mosaic.convertTo(wide, CV_16UC1, 257.0);
-    const cv::Mat expected = toGreyImage(makeMessage(mosaic, "bayer_" + order + "8"));
+    const cv::Mat expected = toGrayImage(makeMessage(mosaic, "bayer_" + order + "8"));
     EXPECT_LE(
-        cv::norm(expected, toGreyImage(makeMessage(wide, "bayer_" + order + "16")), cv::NORM_INF),
+        cv::norm(expected, toGrayImage(makeMessage(wide, "bayer_" + order + "16")), cv::NORM_INF),
         1.0)
         << order;
   }
 }
 
-TEST(ToGreyImageTest, YuyvOfGreyKeepsItsBrightness) {
+TEST(ToGrayImageTest, YuyvOfGrayKeepsItsBrightness) {
   cv::Mat pixels(kHeight, kWidth, CV_8UC2);
   for (int y = 0; y < kHeight; ++y) {
     for (int x = 0; x < kWidth; ++x) {
@@ -144,54 +144,54 @@ TEST(ToGreyImageTest, YuyvOfGreyKeepsItsBrightness) {
     }
   }
   for (const char* encoding : {"yuyv", "yuv422_yuy2"}) {
-    const cv::Mat grey = toGreyImage(makeMessage(pixels, encoding));
+    const cv::Mat gray = toGrayImage(makeMessage(pixels, encoding));
     for (int x = 1; x < kWidth; ++x) {  // of "video" range: 16 to 235
-      EXPECT_NEAR(grey.at<std::uint8_t>(1, x), (61 + 10 * x - 16) * 255.0 / 219.0, 1.5) << encoding;
+      EXPECT_NEAR(gray.at<std::uint8_t>(1, x), (61 + 10 * x - 16) * 255.0 / 219.0, 1.5) << encoding;
     }
   }
 }
 
-TEST(ToGreyImageTest, TwoPlanesOfGreyKeepTheirBrightness) {
+TEST(ToGrayImageTest, TwoPlanesOfGrayKeepTheirBrightness) {
   cv::Mat planes(kHeight * 3 / 2, kWidth, CV_8UC1, cv::Scalar(128));
   planes.rowRange(0, kHeight) = 100;
   const cv::Mat expected(kHeight, kWidth, CV_8UC1, cv::Scalar((100 - 16) * 255.0 / 219.0));
   for (const char* encoding : {"nv12", "nv21"}) {
     sensor_msgs::Image message = makeMessage(planes, encoding);
-    EXPECT_LE(cv::norm(toGreyImage(message), expected, cv::NORM_INF), 1.0);
+    EXPECT_LE(cv::norm(toGrayImage(message), expected, cv::NORM_INF), 1.0);
     message.height = kHeight;  // of the image alone
-    EXPECT_LE(cv::norm(toGreyImage(message), expected, cv::NORM_INF), 1.0);
+    EXPECT_LE(cv::norm(toGrayImage(message), expected, cv::NORM_INF), 1.0);
     message.data.pop_back();
-    EXPECT_ERROR(toGreyImage(message), "holds 35 bytes");
+    EXPECT_ERROR(toGrayImage(message), "holds 35 bytes");
   }
 }
 
-TEST(ToGreyImageTest, RowsMayBePadded) {
+TEST(ToGrayImageTest, RowsMayBePadded) {
   const cv::Mat wide = pattern(CV_8UC3);
   const cv::Mat part = wide.colRange(0, kWidth - 2);
   sensor_msgs::Image message = makeMessage(wide, encodings::BGR8);
   message.width = kWidth - 2;  // the step stays that of the wide image
-  EXPECT_TRUE(equal(toGrey(part.clone(), ChannelOrder::kBgr), toGreyImage(message)));
+  EXPECT_TRUE(equal(toGray(part.clone(), ChannelOrder::kBgr), toGrayImage(message)));
 }
 
-TEST(ToGreyImageTest, WrongEncodingIsRefusedByName) {
+TEST(ToGrayImageTest, WrongEncodingIsRefusedByName) {
   const cv::Mat depth(kHeight, kWidth, CV_16UC1, cv::Scalar(1000));
-  EXPECT_ERROR(toGreyImage(makeMessage(depth, encodings::TYPE_16UC1)), "'16UC1'");
-  EXPECT_ERROR(toGreyImage(makeMessage(depth, "nonsense")), "'nonsense'");
+  EXPECT_ERROR(toGrayImage(makeMessage(depth, encodings::TYPE_16UC1)), "'16UC1'");
+  EXPECT_ERROR(toGrayImage(makeMessage(depth, "nonsense")), "'nonsense'");
 }
 
-TEST(ToGreyImageTest, SizesThatContradictEachOtherAreRefused) {
+TEST(ToGrayImageTest, SizesThatContradictEachOtherAreRefused) {
   sensor_msgs::Image message = makeMessage(pattern(CV_8UC3), encodings::RGB8);
   message.step = 17;
-  EXPECT_ERROR(toGreyImage(message), "step of 17 bytes");
+  EXPECT_ERROR(toGrayImage(message), "step of 17 bytes");
   message = makeMessage(pattern(CV_8UC3), encodings::RGB8);
   message.data.pop_back();
-  EXPECT_ERROR(toGreyImage(message), "holds 71 bytes");
+  EXPECT_ERROR(toGrayImage(message), "holds 71 bytes");
   message = makeMessage(pattern(CV_8UC1), encodings::MONO8);
   message.height = 0;
-  EXPECT_ERROR(toGreyImage(message), "empty");
+  EXPECT_ERROR(toGrayImage(message), "empty");
 }
 
-TEST(ToDepthImageTest, IntegersAreMillimetresAndNotCopied) {
+TEST(ToDepthImageTest, IntegersAreMillimetersAndNotCopied) {
   const cv::Mat image = pattern(CV_16UC1);
   for (const char* encoding : {"16UC1", "mono16"}) {
     const sensor_msgs::Image message = makeMessage(image, encoding);
@@ -209,10 +209,10 @@ TEST(ToDepthImageTest, ForeignByteOrderIsSwapped) {
   ASSERT_EQ(CV_16UC1, toDepthImage(message).image.type());
   EXPECT_EQ(1000, toDepthImage(message).image.at<std::uint16_t>(2, 3));
 
-  const float metres = 1.25F;
+  const float meters = 1.25F;
   cv::Mat floats(kHeight, kWidth, CV_32FC1);
   std::uint8_t bytes[4];
-  std::memcpy(bytes, &metres, 4);
+  std::memcpy(bytes, &meters, 4);
   std::reverse(bytes, bytes + 4);
   for (int i = 0; i < kWidth * kHeight; ++i) std::memcpy(floats.data + 4 * i, bytes, 4);
   message = makeMessage(floats, "32FC1");
@@ -221,12 +221,12 @@ TEST(ToDepthImageTest, ForeignByteOrderIsSwapped) {
   EXPECT_EQ(1.25F, toDepthImage(message).image.at<float>(2, 3));
 }
 
-TEST(ToDepthImageTest, FloatsAreMetres) {
+TEST(ToDepthImageTest, FloatsAreMeters) {
   cv::Mat image(kHeight, kWidth, CV_32FC1, cv::Scalar(2.5));
   EXPECT_EQ(2.5F, toDepthImage(makeMessage(image, "32FC1")).image.at<float>(0, 0));
 }
 
-TEST(ToDepthImageTest, ColourIsRefusedByName) {
+TEST(ToDepthImageTest, ColorIsRefusedByName) {
   EXPECT_ERROR(toDepthImage(makeMessage(pattern(CV_8UC3), "rgb8")), "'rgb8'");
 }
 
@@ -243,20 +243,20 @@ sensor_msgs::CompressedImage compress(const cv::Mat& image, const char* extensio
 
 TEST(CompressedImageTest, PngGivesTheBitsOfTheRawMessage) {
   const cv::Mat bgr = pattern(CV_8UC3);
-  const cv::Mat expected = toGrey(bgr, ChannelOrder::kBgr);
-  EXPECT_TRUE(equal(expected, toGreyImage(compress(bgr, ".png", "rgb8; png compressed bgr8"))));
-  EXPECT_TRUE(equal(expected, toGreyImage(compress(bgr, ".png", "png"))));
+  const cv::Mat expected = toGray(bgr, ChannelOrder::kBgr);
+  EXPECT_TRUE(equal(expected, toGrayImage(compress(bgr, ".png", "rgb8; png compressed bgr8"))));
+  EXPECT_TRUE(equal(expected, toGrayImage(compress(bgr, ".png", "png"))));
   // Encoded as if blue came first although red did.
-  EXPECT_TRUE(equal(toGrey(bgr, ChannelOrder::kRgb),
-                    toGreyImage(compress(bgr, ".png", "rgb8; png compressed rgb8"))));
-  const cv::Mat grey = pattern(CV_8UC1);
-  EXPECT_TRUE(equal(grey, toGreyImage(compress(grey, ".png", "mono8; png compressed "))));
+  EXPECT_TRUE(equal(toGray(bgr, ChannelOrder::kRgb),
+                    toGrayImage(compress(bgr, ".png", "rgb8; png compressed rgb8"))));
+  const cv::Mat gray = pattern(CV_8UC1);
+  EXPECT_TRUE(equal(gray, toGrayImage(compress(gray, ".png", "mono8; png compressed "))));
 }
 
 TEST(CompressedImageTest, JpegIsCloseToTheOriginal) {
   const cv::Mat smooth(48, 64, CV_8UC3, cv::Scalar(40, 90, 200));
-  const cv::Mat grey = toGreyImage(compress(smooth, ".jpg", "rgb8; jpeg compressed bgr8"));
-  EXPECT_LE(cv::norm(grey, toGrey(smooth, ChannelOrder::kBgr), cv::NORM_INF), 3.0);
+  const cv::Mat gray = toGrayImage(compress(smooth, ".jpg", "rgb8; jpeg compressed bgr8"));
+  EXPECT_LE(cv::norm(gray, toGray(smooth, ChannelOrder::kBgr), cv::NORM_INF), 3.0);
 }
 
 TEST(CompressedImageTest, DepthPngWithAndWithoutHeaderIsExact) {
@@ -266,11 +266,11 @@ TEST(CompressedImageTest, DepthPngWithAndWithoutHeaderIsExact) {
   EXPECT_TRUE(equal(depth, toDepthImage(compress(depth, ".png", "16UC1; png compressed ")).image));
 }
 
-TEST(CompressedImageTest, QuantisedInverseDepthBecomesMetres) {
-  cv::Mat quantised(kHeight, kWidth, CV_16UC1, cv::Scalar(600));
-  quantised.at<std::uint16_t>(0, 0) = 0;
+TEST(CompressedImageTest, QuantizedInverseDepthBecomesMeters) {
+  cv::Mat quantized(kHeight, kWidth, CV_16UC1, cv::Scalar(600));
+  quantized.at<std::uint16_t>(0, 0) = 0;
   sensor_msgs::CompressedImage message =
-      compress(quantised, ".png", "32FC1; compressedDepth png", 12);
+      compress(quantized, ".png", "32FC1; compressedDepth png", 12);
   const float a = 1010.0F;
   const float b = -405.0F;
   std::memcpy(message.data.data() + 4, &a, 4);
@@ -283,21 +283,21 @@ TEST(CompressedImageTest, QuantisedInverseDepthBecomesMetres) {
 
 TEST(CompressedImageTest, AMosaicInAJpegIsDemosaiced) {
   const cv::Mat mosaic = pattern(CV_8UC1);
-  const cv::Mat expected = toGreyImage(makeMessage(mosaic, "bayer_rggb8"));
-  const cv::Mat grey = toGreyImage(compress(mosaic, ".png", "bayer_rggb8; png compressed "));
-  EXPECT_TRUE(equal(expected, grey));
+  const cv::Mat expected = toGrayImage(makeMessage(mosaic, "bayer_rggb8"));
+  const cv::Mat gray = toGrayImage(compress(mosaic, ".png", "bayer_rggb8; png compressed "));
+  EXPECT_TRUE(equal(expected, gray));
   // What was demosaiced before it was compressed is not done so again.
-  const cv::Mat colour = pattern(CV_8UC3);
-  EXPECT_TRUE(equal(toGreyImage(compress(colour, ".png", "bayer_rggb8; png compressed bgr8")),
-                    toGreyImage(makeMessage(colour, "bgr8"))));
+  const cv::Mat color = pattern(CV_8UC3);
+  EXPECT_TRUE(equal(toGrayImage(compress(color, ".png", "bayer_rggb8; png compressed bgr8")),
+                    toGrayImage(makeMessage(color, "bgr8"))));
 }
 
 TEST(CompressedImageTest, ZerosBehindTheEndDoNotMatter) {
   for (const char* format : {".png", ".jpg"}) {
     sensor_msgs::CompressedImage message = compress(pattern(CV_8UC3), format, "bgr8; compressed");
-    const cv::Mat expected = toGreyImage(message);
+    const cv::Mat expected = toGrayImage(message);
     message.data.resize(message.data.size() + 5000);
-    EXPECT_TRUE(equal(toGreyImage(message), expected)) << format;
+    EXPECT_TRUE(equal(toGrayImage(message), expected)) << format;
   }
 }
 
@@ -338,14 +338,14 @@ TEST(CompressedImageTest, TruncatedAndForeignDataAreRefused) {
   const cv::Mat large(64, 64, CV_8UC3, cv::Scalar(1, 2, 3));
   sensor_msgs::CompressedImage message = compress(large, ".png", "rgb8; png compressed bgr8");
   message.data.resize(message.data.size() / 2);
-  EXPECT_ERROR(toGreyImage(message), "truncated");
+  EXPECT_ERROR(toGrayImage(message), "truncated");
   message = compress(large, ".jpg", "jpeg");
   message.data.resize(message.data.size() - 40);
-  EXPECT_ERROR(toGreyImage(message), "truncated");
+  EXPECT_ERROR(toGrayImage(message), "truncated");
   message.data.assign(100, 0);
-  EXPECT_ERROR(toGreyImage(message), "neither JPEG nor PNG");
+  EXPECT_ERROR(toGrayImage(message), "neither JPEG nor PNG");
   message.data.clear();
-  EXPECT_ERROR(toGreyImage(message), "neither JPEG nor PNG");
+  EXPECT_ERROR(toGrayImage(message), "neither JPEG nor PNG");
   message.format = "16UC1; compressedDepth rvl";
   EXPECT_ERROR(toDepthImage(message), "RVL");
   EXPECT_ERROR(toDepthImage(compress(large, ".png", "16UC1; compressedDepth", 12)),
@@ -360,7 +360,7 @@ TEST(CompressedImageTest, ADamagedSizeIsRefused) {
                               std::end(frame_header));
   ASSERT_LT(9, message.data.end() - at);
   std::fill(at + 5, at + 9, std::uint8_t{0xfe});  // more pixels than OpenCV agrees to decode
-  EXPECT_ERROR(toGreyImage(message), "cannot be decoded");
+  EXPECT_ERROR(toGrayImage(message), "cannot be decoded");
 }
 
 }  // namespace

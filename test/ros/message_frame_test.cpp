@@ -21,14 +21,14 @@ sensor_msgs::Image makeImage(const std::string& encoding, std::uint32_t bytes) {
   return image;
 }
 
-ImagePair makePair(const sensor_msgs::Image& colour, const sensor_msgs::Image& depth,
+ImagePair makePair(const sensor_msgs::Image& color, const sensor_msgs::Image& depth,
                    std::uint32_t width = 32) {
   Camera camera;
   camera.width = static_cast<int>(width);
   camera.height = 24;
   camera.fx = camera.fy = 30.0;
   camera.cx = camera.cy = 12.0;
-  return {wrap(boost::make_shared<sensor_msgs::Image>(colour)),
+  return {wrap(boost::make_shared<sensor_msgs::Image>(color)),
           wrap(boost::make_shared<sensor_msgs::Image>(depth)),
           boost::make_shared<sensor_msgs::CameraInfo>(toCameraInfo(camera))};
 }
@@ -38,7 +38,7 @@ TEST(ToFrameTest, StampPixelsAndCalibrationAreThoseOfTheMessages) {
   const MessageFrame input = FrameMaker(false).make(pair);
   EXPECT_EQ(12.5, input.frame.stamp);
   EXPECT_EQ(30.0, input.camera.fx);
-  EXPECT_EQ(pair.colour->raw->data.data(), input.frame.image.data);  // not copied
+  EXPECT_EQ(pair.color->raw->data.data(), input.frame.image.data);  // not copied
   EXPECT_EQ(pair.depth->raw->data.data(), input.frame.depth.data);
 }
 
@@ -56,7 +56,7 @@ TEST(ToFrameTest, WhatDoesNotFitIsRefusedWithTheReason) {
 TEST(StatusTest, CodesAreThoseOfTheMessageDefinition) {
   TrackingResult result;
   const std::pair<TrackingState, int> states[] = {
-      {TrackingState::kInitialising, TrackingStatus::INITIALISING},
+      {TrackingState::kInitializing, TrackingStatus::INITIALIZING},
       {TrackingState::kTracking, TrackingStatus::TRACKING},
       {TrackingState::kDegraded, TrackingStatus::DEGRADED},
       {TrackingState::kLost, TrackingStatus::LOST}};

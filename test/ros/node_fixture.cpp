@@ -39,7 +39,7 @@ NodeTest::NodeTest()
       calibration_(toCameraInfo(planeCamera().camera)),
       tf_listener_(tf_, node_, true),
       spinner_(2) {
-  colour_ = node_.advertise<sensor_msgs::Image>("rgb/image", 100);
+  color_ = node_.advertise<sensor_msgs::Image>("rgb/image", 100);
   depth_ = node_.advertise<sensor_msgs::Image>("depth/image", 100);
   camera_info_ = node_.advertise<sensor_msgs::CameraInfo>("rgb/camera_info", 100);
   clock_ = node_.advertise<rosgraph_msgs::Clock>("/clock", 100);
@@ -87,7 +87,7 @@ void NodeTest::load() {
 
 void NodeTest::connect() {
   ASSERT_TRUE(waitFor([this] {
-    return colour_.getNumSubscribers() > 0 && depth_.getNumSubscribers() > 0 &&
+    return color_.getNumSubscribers() > 0 && depth_.getNumSubscribers() > 0 &&
            camera_info_.getNumSubscribers() > 0;
   }));
   // A subscriber cannot know when a publisher has noticed it: frames are sent until they come back.
@@ -143,7 +143,7 @@ ros::Time NodeTest::stampOf(int i) const {
 }
 
 void NodeTest::blacken() {
-  std::fill(next_colour_.data.begin(), next_colour_.data.end(), 0);
+  std::fill(next_color_.data.begin(), next_color_.data.end(), 0);
   std::fill(next_depth_.data.begin(), next_depth_.data.end(), 0);
 }
 
@@ -160,14 +160,14 @@ void NodeTest::publish(int i, int at, double depth_delay) {
   std_msgs::Header header;
   header.stamp = stampOf(at);
   header.frame_id = frame("optical");
-  next_colour_ = *cv_bridge::CvImage(header, "mono8", image).toImageMsg();
+  next_color_ = *cv_bridge::CvImage(header, "mono8", image).toImageMsg();
   next_depth_ = *cv_bridge::CvImage(header, "32FC1", depth).toImageMsg();
   next_depth_.header.stamp += ros::Duration(depth_delay);
   calibration_.header = header;
   spoil_();
   publishClock(at);
   camera_info_.publish(calibration_);
-  colour_.publish(next_colour_);
+  color_.publish(next_color_);
   if (has_depth_) depth_.publish(next_depth_);
 }
 

@@ -58,7 +58,7 @@ class NodeTest : public ::testing::Test {
   /// True pose of the base in odom at frame i.
   static Eigen::Isometry3d truth(int i);
 
-  /// Publishes clock, calibration, colour and depth of frame i with the stamp of frame `at`.
+  /// Publishes clock, calibration, color and depth of frame i with the stamp of frame `at`.
   void publish(int i, int at, double depth_delay = 0.0);
   void publish(int i) { publish(i, i); }
   void publishClock(int i);
@@ -122,12 +122,12 @@ class NodeTest : public ::testing::Test {
   const int number_;  // of the test
   const std::string ns_;
   ros::NodeHandle node_;
-  ros::Publisher colour_;
+  ros::Publisher color_;
   ros::Publisher depth_;
   ros::Publisher camera_info_;
   ros::Publisher clock_;
   sensor_msgs::CameraInfo calibration_;
-  sensor_msgs::Image next_colour_;  // of frame i: changed by tests that want them broken
+  sensor_msgs::Image next_color_;  // of frame i: changed by tests that want them broken
   sensor_msgs::Image next_depth_;
   bool has_depth_ = true;                // the depth image is published
   std::function<void()> spoil_ = [] {};  // called before the two are published

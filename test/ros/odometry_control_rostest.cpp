@@ -129,11 +129,11 @@ class LostFramesTest : public NodeTest {
     publishCameraOnBase();
     load();
     spoil_ = [this] {
-      const ros::Time stamp = next_colour_.header.stamp;
+      const ros::Time stamp = next_color_.header.stamp;
       if (stamp == stampOf(0) || stamp == stampOf(3)) blacken();
     };
     for (int i = 0; i < 5; ++i) track(i);
-    EXPECT_EQ(TrackingStatus::INITIALISING, statusOf(0).state);
+    EXPECT_EQ(TrackingStatus::INITIALIZING, statusOf(0).state);
     EXPECT_EQ(TrackingStatus::LOST, statusOf(3).state);
     SaveTrajectory call;
     call.request.path = folder / "trajectory.txt";
@@ -284,7 +284,7 @@ TEST_F(NodeTest, UnloadingWhileFramesWaitEndsCleanly) {
   load();
   for (int i = 0; i < 40; ++i) publish(i);
   EXPECT_TRUE(unload());
-  EXPECT_TRUE(waitFor([this] { return colour_.getNumSubscribers() == 0; }));
+  EXPECT_TRUE(waitFor([this] { return color_.getNumSubscribers() == 0; }));
   load();  // the manager is alive, and the name is free again
   EXPECT_TRUE(unload());
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The help of another odometry: wheels drive a metre behind a covered lens.
+// The help of another odometry: wheels drive a meter behind a covered lens.
 #include <gtest/gtest.h>
 #include <tf2_ros/transform_broadcaster.h>
 
@@ -20,7 +20,7 @@ constexpr int kLastSeen = 9;    // frame before the lens is covered
 constexpr int kSeenAgain = 40;  // frame with which it is not any more
 constexpr int kLast = 46;
 
-// A metre along the plane, for the robot drives past it.
+// A meter along the plane, for the robot drives past it.
 const Eigen::Vector3d kDrive = Eigen::Vector3d(1.0, 0.0, -0.2).normalized();
 constexpr double kTurn = -0.2;  // rad, back towards what was seen before
 
@@ -32,7 +32,7 @@ class GuessTest : public NodeTest {
     setParameter("tf_timeout", 0.5);
     filmed_from_ = [this](int i) { return T_elsewhere(i) * cameraAt(i); };
     spoil_ = [this] {
-      const int i = frameOf(next_colour_.header.stamp);
+      const int i = frameOf(next_color_.header.stamp);
       if (i > kLastSeen && i < kSeenAgain) blacken();
       if (are_wheels_known_(i)) sendWheels(i);
     };
@@ -113,7 +113,7 @@ TEST_F(GuessTest, TheWheelsStayTheParentOfTheBase) {
   EXPECT_LT(poseError(4, baseAt(4)), kTolerance);
 }
 
-TEST_F(GuessTest, AMetreDrivenBehindACoveredLensLeadsBackToWhatIsKnown) {
+TEST_F(GuessTest, AMeterDrivenBehindACoveredLensLeadsBackToWhatIsKnown) {
   load();
   drive();
   EXPECT_EQ(statusOf(kLastSeen).segment, statusOf(kLast).segment);
@@ -121,7 +121,7 @@ TEST_F(GuessTest, AMetreDrivenBehindACoveredLensLeadsBackToWhatIsKnown) {
   EXPECT_LT(poseError(kLast, baseAt(kLast)), kWheelTolerance);
 }
 
-TEST_F(GuessTest, AMetreDrivenBehindACoveredLensEndsWhereTheNewSegmentBegins) {
+TEST_F(GuessTest, AMeterDrivenBehindACoveredLensEndsWhereTheNewSegmentBegins) {
   is_elsewhere_ = true;
   load();
   drive();
@@ -154,7 +154,7 @@ TEST_F(GuessTest, WheelsThatAreResetAreNotBelieved) {
   };
   load();
   drive();
-  // The new segment begins at the last good pose, a metre off, not five or more.
+  // The new segment begins at the last good pose, a meter off, not five or more.
   EXPECT_LT(poseError(kLast, baseAt(kLastSeen)), 0.2);
 }
 

@@ -33,7 +33,7 @@ TEST_F(NodeTest, UnusableMessagesAreSkippedWithTheReason) {
          calibration_.D.assign(5, 0.1);
        }},
       {"640", [this] { calibration_.width = 640; }},
-      {"'hsv8'", [this] { next_colour_.encoding = "hsv8"; }},
+      {"'hsv8'", [this] { next_color_.encoding = "hsv8"; }},
       {"step", [this] { next_depth_.step = 3; }},
       {"not calibrated", [this] { calibration_.K.fill(0.0); }}};
   int at = 0;
@@ -63,7 +63,7 @@ TEST_F(NodeTest, UnusableMessagesAreSkippedWithTheReason) {
 TEST_F(NodeTest, FramesWithoutDepthAreLeftOut) {
   publishCameraOnBase();
   load();
-  spoil_ = [this] { has_depth_ = next_colour_.header.stamp != stampOf(3); };
+  spoil_ = [this] { has_depth_ = next_color_.header.stamp != stampOf(3); };
   for (int i = 0; i < 8; ++i) publish(i);
   ASSERT_TRUE(waitFor([&] { return isDone(7); }));
   EXPECT_TRUE(holds([&] { return !hasStatus(3); }));
@@ -131,8 +131,8 @@ TEST_F(NodeTest, ImagesThatWaitForTheCalibrationAreNotLost) {
   load();
   ASSERT_TRUE(unload());
   loadOnly();
-  ASSERT_TRUE(waitFor(
-      [this] { return colour_.getNumSubscribers() > 0 && depth_.getNumSubscribers() > 0; }));
+  ASSERT_TRUE(
+      waitFor([this] { return color_.getNumSubscribers() > 0 && depth_.getNumSubscribers() > 0; }));
   camera_info_.shutdown();
   for (int i = 0; i < 5; ++i) publish(i);
   diagnosis("tracking", [](const std::string& text) { return text == "no frames"; });
@@ -247,7 +247,7 @@ TEST_F(NodeTest, ASilentTopicIsNamed) {
   const std::string wanted = "no messages on: " + ns_ + "/depth/image";
   const auto is_told = [&] {
     return std::any_of(log.begin(), log.end(), [&](const rosgraph_msgs::Log& entry) {
-      // The colour topic is not named: its images come.
+      // The color topic is not named: its images come.
       return entry.msg.find(wanted + '\n') != std::string::npos;
     });
   };
@@ -259,28 +259,27 @@ TEST_F(NodeTest, CompressedImagesAreDecodedWithoutPlugins) {
   publishCameraOnBase();
   setParameter("rgb_transport", "compressed");
   setParameter("depth_transport", "compressedDepth");
-  ros::Publisher colour =
-      node_.advertise<sensor_msgs::CompressedImage>("rgb/image/compressed", 100);
+  ros::Publisher color = node_.advertise<sensor_msgs::CompressedImage>("rgb/image/compressed", 100);
   ros::Publisher depth =
       node_.advertise<sensor_msgs::CompressedImage>("depth/image/compressedDepth", 100);
   loadOnly();
   const auto connected = [&] {
-    return colour.getNumSubscribers() > 0 && depth.getNumSubscribers() > 0 &&
+    return color.getNumSubscribers() > 0 && depth.getNumSubscribers() > 0 &&
            camera_info_.getNumSubscribers() > 0;
   };
   ASSERT_TRUE(waitFor(connected));
   spoil_ = [&] {
     sensor_msgs::CompressedImage message;
-    message.header = next_colour_.header;
+    message.header = next_color_.header;
     message.format = "mono8; png compressed ";
-    cv::imencode(".png", toGreyImage(next_colour_), message.data);
-    colour.publish(message);
+    cv::imencode(".png", toGrayImage(next_color_), message.data);
+    color.publish(message);
     message.header = next_depth_.header;
     message.format = "16UC1; compressedDepth";
-    cv::Mat millimetres;
-    toDepthImage(next_depth_).image.convertTo(millimetres, CV_16U, 1000.0);
+    cv::Mat millimeters;
+    toDepthImage(next_depth_).image.convertTo(millimeters, CV_16U, 1000.0);
     std::vector<std::uint8_t> png;
-    cv::imencode(".png", millimetres, png);
+    cv::imencode(".png", millimeters, png);
     message.data.assign(12, 0);
     message.data.insert(message.data.end(), png.begin(), png.end());
     depth.publish(message);

@@ -21,7 +21,7 @@ geometry_msgs::Pose poseOf(double x, double y, double z, double w) {
   return pose;
 }
 
-TEST(PoseConversionTest, QuaternionsOfAnyLengthAreNormalised) {
+TEST(PoseConversionTest, QuaternionsOfAnyLengthAreNormalized) {
   for (const double length : {1e-3, 0.5, 1.0, 2.0, 1e3}) {
     const Eigen::Isometry3d T = toIsometry(poseOf(0.0, 0.0, length, length));
     EXPECT_TRUE((T.linear() * Eigen::Vector3d::UnitX()).isApprox(Eigen::Vector3d::UnitY(), 1e-12));

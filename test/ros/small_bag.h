@@ -22,7 +22,7 @@ class SmallBag {
 
   /// One frame's messages, and when they are recorded.
   struct Messages {
-    sensor_msgs::Image colour;
+    sensor_msgs::Image color;
     sensor_msgs::Image depth;
     sensor_msgs::CameraInfo info;
     ros::Time recorded;
@@ -35,7 +35,7 @@ class SmallBag {
   static Messages messagesOf(int i) {
     Messages m;
     m.recorded = toTime(stamp(i) + 0.01);
-    for (sensor_msgs::Image* image : {&m.colour, &m.depth}) {
+    for (sensor_msgs::Image* image : {&m.color, &m.depth}) {
       image->header.stamp = toTime(stamp(i));
       image->header.frame_id = "camera_rgb_optical_frame";
       image->width = kWidth;
@@ -43,10 +43,10 @@ class SmallBag {
       const bool is_depth = image == &m.depth;
       image->encoding = is_depth ? "16UC1" : "mono8";
       image->step = kWidth * (is_depth ? 2U : 1U);
-      // 16 bits: 0x0404 and more, about a metre.
+      // 16 bits: 0x0404 and more, about a meter.
       image->data.assign(image->step * kHeight, static_cast<std::uint8_t>(4 + i));
     }
-    m.info.header = m.colour.header;
+    m.info.header = m.color.header;
     m.info.width = kWidth;
     m.info.height = kHeight;
     m.info.distortion_model = "plumb_bob";
@@ -68,7 +68,7 @@ class SmallBag {
       if (m.has_info) {
         bag.write("/camera/rgb/camera_info", m.recorded, m.info);
       }
-      if (!m.colour.data.empty()) bag.write("/camera/rgb/image_raw", m.recorded, m.colour);
+      if (!m.color.data.empty()) bag.write("/camera/rgb/image_raw", m.recorded, m.color);
       if (!m.depth.data.empty()) {
         bag.write("/camera/depth_registered/image_raw", m.recorded, m.depth);
       }

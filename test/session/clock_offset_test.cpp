@@ -12,7 +12,7 @@ ClockOffset cameraWith(double offset, double playing_rate = 1.0, double depth_la
   for (int i = 0; i < 30; ++i) {
     const double taken = 1e9 + i / 30.0;
     const auto arrival = [&](double latency) { return 5e8 + (i / 30.0 + latency) / playing_rate; };
-    clocks.add(ImageStream::kColour, taken, arrival(0.02));
+    clocks.add(ImageStream::kColor, taken, arrival(0.02));
     clocks.add(ImageStream::kDepth, taken + offset, arrival(depth_latency));
   }
   return clocks;

@@ -24,7 +24,7 @@ TEST(SampleDepthTest, CoverageAndMedianOfBothTypes) {
   EXPECT_EQ(1.5, sampleDepth(frame).median);
 }
 
-/// A slanted floor of 1 to 4 m in millimetres, through a function of each value.
+/// A slanted floor of 1 to 4 m in millimeters, through a function of each value.
 template <typename Function>
 Frame floorThrough(const Function& function) {
   Frame frame;
@@ -38,7 +38,7 @@ Frame floorThrough(const Function& function) {
   return frame;
 }
 
-TEST(ExamineDepthStorageTest, MillimetresAndOtherUnitsArePlain) {
+TEST(ExamineDepthStorageTest, MillimetersAndOtherUnitsArePlain) {
   for (const double factor : {0.256, 1.0, 5.0, 10.0}) {
     const DepthStorage storage =
         examineDepthStorage(floorThrough([&](int depth) { return std::lround(factor * depth); }));
@@ -69,12 +69,12 @@ TEST(ExamineDepthStorageTest, CoarseDepthIsSeen) {
   EXPECT_EQ(examineDepthStorage(floorThrough(kinect)).coarse_step, 0.0);
 }
 
-TEST(ExamineDepthStorageTest, FewReadingsAndMetresSayNothing) {
+TEST(ExamineDepthStorageTest, FewReadingsAndMetersSayNothing) {
   const Frame empty = floorThrough([](int) { return 0; });
   EXPECT_FALSE(examineDepthStorage(empty).is_multiple_of_8);
-  Frame metres = empty;
-  metres.depth = cv::Mat(120, 160, CV_32FC1, cv::Scalar(2.0));
-  EXPECT_FALSE(examineDepthStorage(metres).is_multiple_of_8);
+  Frame meters = empty;
+  meters.depth = cv::Mat(120, 160, CV_32FC1, cv::Scalar(2.0));
+  EXPECT_FALSE(examineDepthStorage(meters).is_multiple_of_8);
 }
 
 }  // namespace

@@ -6,15 +6,15 @@
 namespace mivo {
 namespace {
 
-Frame makeFrame(int grey, int depth) {
+Frame makeFrame(int gray, int depth) {
   Frame frame;
-  frame.image = cv::Mat(6, 8, CV_8UC1, cv::Scalar(grey));
+  frame.image = cv::Mat(6, 8, CV_8UC1, cv::Scalar(gray));
   frame.image.at<unsigned char>(2, 3) = 77;
   frame.depth = cv::Mat(6, 8, CV_16UC1, cv::Scalar(depth));
   return frame;
 }
 
-TEST(RepeatedImageTest, SameColourWithOtherDepthIsOne) {
+TEST(RepeatedImageTest, SameColorWithOtherDepthIsOne) {
   RepeatedImage repeated;
   EXPECT_FALSE(repeated.check(makeFrame(10, 1000)));
   EXPECT_FALSE(repeated.check(makeFrame(11, 1001)));

@@ -51,7 +51,7 @@ TEST(StampOrderTest, EqualStampsAreNoTimes) {
   EXPECT_EQ(putInOrder(items).doubled, 0U);  // a single image may have any
 }
 
-TEST(StampOrderTest, UnitsAreRecognised) {
+TEST(StampOrderTest, UnitsAreRecognized) {
   const struct {
     std::vector<double> stamps;
     double unit;

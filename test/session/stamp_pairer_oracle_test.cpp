@@ -11,7 +11,7 @@
 namespace mivo {
 namespace {
 
-constexpr ImageStream kC = ImageStream::kColour;
+constexpr ImageStream kC = ImageStream::kColor;
 constexpr ImageStream kD = ImageStream::kDepth;
 
 using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
@@ -51,16 +51,16 @@ std::vector<double> randomStamps(std::size_t count, std::mt19937& engine) {
 TEST(StampPairerOracleTest, ListsGiveThePairsOfBruteForce) {
   std::mt19937 engine(7);
   for (int round = 0; round < 50; ++round) {
-    const std::vector<double> colour = randomStamps(20, engine);
+    const std::vector<double> color = randomStamps(20, engine);
     const std::vector<double> depth = randomStamps(25, engine);
-    EXPECT_EQ(pairByStamp(colour, depth, 0.03), bruteForce(colour, depth, 0.03));
+    EXPECT_EQ(pairByStamp(color, depth, 0.03), bruteForce(color, depth, 0.03));
   }
 }
 
 TEST(StampPairerOracleTest, PairsAreTheSameHoweverTheStreamsArrive) {
   std::mt19937 engine(11);
   for (int round = 0; round < 200; ++round) {
-    const std::vector<double> colour = randomStamps(30, engine);
+    const std::vector<double> color = randomStamps(30, engine);
     const std::vector<double> depth = randomStamps(30, engine);
     Pairs pairs;
     std::size_t singles = 0;
@@ -79,9 +79,9 @@ TEST(StampPairerOracleTest, PairsAreTheSameHoweverTheStreamsArrive) {
           EXPECT_LE(last[static_cast<std::size_t>(stream)], i);
           last[static_cast<std::size_t>(stream)] = i + 1;
         });
-    for (std::size_t i = 0, j = 0; i < colour.size() || j < depth.size();) {
-      if (j == depth.size() || (i < colour.size() && engine() % 2 == 0)) {
-        pairer.push(kC, colour[i], i);
+    for (std::size_t i = 0, j = 0; i < color.size() || j < depth.size();) {
+      if (j == depth.size() || (i < color.size() && engine() % 2 == 0)) {
+        pairer.push(kC, color[i], i);
         ++i;
       } else {
         pairer.push(kD, depth[j], j);
@@ -89,8 +89,8 @@ TEST(StampPairerOracleTest, PairsAreTheSameHoweverTheStreamsArrive) {
       }
     }
     pairer.flush();
-    EXPECT_EQ(pairs, pairByStamp(colour, depth));
-    EXPECT_EQ(2 * pairs.size() + singles, colour.size() + depth.size());
+    EXPECT_EQ(pairs, pairByStamp(color, depth));
+    EXPECT_EQ(2 * pairs.size() + singles, color.size() + depth.size());
   }
 }
 
@@ -120,12 +120,11 @@ TEST(StampPairerOracleTest, ACameraThatLosesImagesGivesAllPairsWithinTheToleranc
         [](ImageStream, std::size_t&) {});
     // Each stream in its order, depth up to 40 ms late.
     for (std::size_t i = 0, j = 0; i < stamps[0].size() || j < stamps[1].size();) {
-      const bool is_colour =
+      const bool is_color =
           j == stamps[1].size() ||
           (i < stamps[0].size() && stamps[0][i] < stamps[1][j] + 1e-6 * (engine() % 40000));
-      pairer.push(is_colour ? kC : kD, stamps[is_colour ? 0 : 1][is_colour ? i : j],
-                  is_colour ? i : j);
-      ++(is_colour ? i : j);
+      pairer.push(is_color ? kC : kD, stamps[is_color ? 0 : 1][is_color ? i : j], is_color ? i : j);
+      ++(is_color ? i : j);
     }
     pairer.flush();
     EXPECT_EQ(pairs, expected);

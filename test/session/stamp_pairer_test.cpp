@@ -9,7 +9,7 @@
 namespace mivo {
 namespace {
 
-constexpr ImageStream kC = ImageStream::kColour;
+constexpr ImageStream kC = ImageStream::kColor;
 constexpr ImageStream kD = ImageStream::kDepth;
 
 /// Stamps in whole milliseconds. Writes "(c,d)" for pairs and "c" or "d" for images without
@@ -49,11 +49,11 @@ TEST_F(StampPairerTest, APairWaitsUntilNoImageToComeCanFitBetter) {
   setUp({});
   push(kC, 0);
   push(kD, 10);
-  EXPECT_EQ(log_, "");  // the next colour image could have the stamp 10
+  EXPECT_EQ(log_, "");  // the next color image could have the stamp 10
   push(kC, 19);
   EXPECT_EQ(log_, "");  // it is nearer, and the next depth could be nearer still
   push(kD, 27);
-  EXPECT_EQ(log_, "");  // nearer to 19: 10 would be left to 0; but the next colour may be at 20
+  EXPECT_EQ(log_, "");  // nearer to 19: 10 would be left to 0; but the next color may be at 20
   push(kC, 40);
   EXPECT_EQ(log_, "(0,10)(19,27)");
 }

@@ -57,10 +57,10 @@ inline AnalyticImage waveImage(double mean, std::vector<Wave> waves) {
   };
 }
 
-/// A bright (or dark) round spot: amplitude exp(-|pixel - centre|^2 / (2 radius^2)).
+/// A bright (or dark) round spot: amplitude exp(-|pixel - center|^2 / (2 radius^2)).
 struct Blob {
   double amplitude;
-  Eigen::Vector2d centre;
+  Eigen::Vector2d center;
   double radius;
 };
 
@@ -70,7 +70,7 @@ inline AnalyticImage blobImage(double background, std::vector<Blob> blobs) {
     jet.value = background;
     for (const Blob& blob : blobs) {
       const double inverse = 1.0 / (blob.radius * blob.radius);
-      const Eigen::Vector2d offset = p - blob.centre;
+      const Eigen::Vector2d offset = p - blob.center;
       const double value = blob.amplitude * std::exp(-0.5 * inverse * offset.squaredNorm());
       jet.value += value;
       jet.gradient -= value * inverse * offset;
@@ -81,7 +81,7 @@ inline AnalyticImage blobImage(double background, std::vector<Blob> blobs) {
   };
 }
 
-/// Waves of several directions around a middle grey: a symmetric histogram, for an image of about
+/// Waves of several directions around a middle gray: a symmetric histogram, for an image of about
 /// 100 x 80 pixels.
 inline AnalyticImage waves() {
   return waveImage(
@@ -123,19 +123,19 @@ inline AnalyticImage litWaves() {
   };
 }
 
-/// constant + gradient . offset + offset . H offset / 2 around a centre.
-inline AnalyticImage quadraticImage(double constant, const Eigen::Vector2d& centre,
+/// constant + gradient . offset + offset . H offset / 2 around a center.
+inline AnalyticImage quadraticImage(double constant, const Eigen::Vector2d& center,
                                     const Eigen::Vector2d& gradient,
                                     const Eigen::Matrix2d& hessian) {
   return [=](const Eigen::Vector2d& p) {
-    const Eigen::Vector2d offset = p - centre;
+    const Eigen::Vector2d offset = p - center;
     return ImageJet{constant + gradient.dot(offset) + 0.5 * offset.dot(hessian * offset),
                     gradient + hessian * offset, hessian};
   };
 }
 
 /// The image on the pixel raster, CV_32FC1; pixel (x, y) shows the place (stride x, stride y).
-inline cv::Mat rasterised(const AnalyticImage& image, int width, int height, double stride = 1.0) {
+inline cv::Mat rasterized(const AnalyticImage& image, int width, int height, double stride = 1.0) {
   cv::Mat result(height, width, CV_32FC1);
   for (int y = 0; y < height; ++y) {
     auto* row = result.ptr<float>(y);

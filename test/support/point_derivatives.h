@@ -22,19 +22,19 @@ inline Eigen::Matrix<double, 2, 3> projectionJacobian(const Eigen::Vector3d& poi
   return J;
 }
 
-/// From the image's derivatives with respect to undistorted normalised coordinates (X / Z, Y / Z).
+/// From the image's derivatives with respect to undistorted normalized coordinates (X / Z, Y / Z).
 inline PointDerivatives pointDerivatives(const Eigen::Vector3d& point,
-                                         const Eigen::Vector2d& normalised_gradient,
-                                         const Eigen::Matrix2d& normalised_hessian) {
+                                         const Eigen::Vector2d& normalized_gradient,
+                                         const Eigen::Matrix2d& normalized_hessian) {
   const Eigen::Matrix<double, 2, 3> projection = projectionJacobian(point);
-  const Eigen::Vector3d g = projection.transpose() * normalised_gradient;  // d I / d (X, Y, Z)
+  const Eigen::Vector3d g = projection.transpose() * normalized_gradient;  // d I / d (X, Y, Z)
   PointDerivatives result;
   result.jacobian << g, point.cross(g);
 
   // Second derivative with respect to (X, Y, Z): through the image, and through the projection.
-  Eigen::Matrix3d Q = projection.transpose() * normalised_hessian * projection;
+  Eigen::Matrix3d Q = projection.transpose() * normalized_hessian * projection;
   const double inverse_square = 1.0 / (point.z() * point.z());
-  const Eigen::Vector2d bend = normalised_gradient * inverse_square;
+  const Eigen::Vector2d bend = normalized_gradient * inverse_square;
   Q.topRightCorner<2, 1>() -= bend;
   Q.bottomLeftCorner<1, 2>() -= bend.transpose();
   Q(2, 2) += 2.0 * bend.dot(point.head<2>()) / point.z();

@@ -16,7 +16,7 @@ constexpr double kShortest = 0.13;  // m
 constexpr double kLongest = 1.3;
 
 /// A sum of plane waves of 0.13 to 1.3 m on a rectangle, at least eight pixels long at 2 m, so that
-/// a pixel's centre stands for its area. The sum is bent so that the histogram is skewed.
+/// a pixel's center stands for its area. The sum is bent so that the histogram is skewed.
 class Texture {
  public:
   explicit Texture(std::uint64_t seed) {
@@ -32,7 +32,7 @@ class Texture {
     }
   }
 
-  /// Brightness 0..1 at a place on the rectangle, metres.
+  /// Brightness 0..1 at a place on the rectangle, meters.
   double operator()(double u, double v) const {
     double value = 0.0;
     for (const Wave& wave : waves_) {
@@ -53,9 +53,9 @@ class Texture {
   double sum_ = 0.0;
 };
 
-Rectangle facingCamera(const Eigen::Vector3d& centre, double half_width, double half_height,
+Rectangle facingCamera(const Eigen::Vector3d& center, double half_width, double half_height,
                        std::uint64_t texture) {
-  return {centre, Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(), half_width, half_height,
+  return {center, Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(), half_width, half_height,
           texture};
 }
 
@@ -72,9 +72,9 @@ Hit castRay(const Scene& scene, const std::vector<Texture>& textures, const Eige
   for (std::size_t i = 0; i < scene.size(); ++i) {
     const Rectangle& r = scene[i];
     const Eigen::Vector3d normal = r.u.cross(r.v);
-    const double distance = normal.dot(r.centre - origin) / normal.dot(direction);
+    const double distance = normal.dot(r.center - origin) / normal.dot(direction);
     if (!(distance > 0.0 && distance < nearest)) continue;
-    const Eigen::Vector3d offset = origin + distance * direction - r.centre;
+    const Eigen::Vector3d offset = origin + distance * direction - r.center;
     const Eigen::Vector2d at(r.u.dot(offset), r.v.dot(offset));
     if (std::abs(at.x()) > r.half_width || std::abs(at.y()) > r.half_height) continue;
     nearest = distance;
@@ -85,14 +85,14 @@ Hit castRay(const Scene& scene, const std::vector<Texture>& textures, const Eige
   return {nearest, textures[index](place.x(), place.y())};
 }
 
-unsigned char greyLevel(double value) {
+unsigned char grayLevel(double value) {
   return static_cast<unsigned char>(std::lround(std::min(std::max(value, 0.0), 255.0)));
 }
 
 double lightOf(const Light& light, double brightness, double x, double y) {
   double value = light.gain * std::pow(brightness, light.gamma) + light.offset;
   if (light.spot != 0.0) {
-    const double square = (Eigen::Vector2d(x, y) - light.spot_centre).squaredNorm();
+    const double square = (Eigen::Vector2d(x, y) - light.spot_center).squaredNorm();
     value += light.spot * std::exp(-0.5 * square / (light.spot_radius * light.spot_radius));
   }
   return value;
@@ -102,10 +102,10 @@ double lightOf(const Light& light, double brightness, double x, double y) {
 /// there, too.
 Eigen::Vector3d rayOf(const Camera& camera, const Eigen::Vector2d& pixel, const LensRange& range) {
   if (const auto ray = camera.ray(pixel, range)) return *ray;
-  const Eigen::Vector2d centre(camera.cx, camera.cy);
+  const Eigen::Vector2d center(camera.cx, camera.cy);
   const Eigen::Array2d focal_lengths(camera.fx, camera.fy);
-  const double radius = ((pixel - centre).array() / focal_lengths).matrix().norm();
-  return *camera.ray(centre + 0.999 * range.distorted / radius * (pixel - centre), range);
+  const double radius = ((pixel - center).array() / focal_lengths).matrix().norm();
+  return *camera.ray(center + 0.999 * range.distorted / radius * (pixel - center), range);
 }
 
 template <typename PoseOfRow>
@@ -124,7 +124,7 @@ Frame renderRows(const Scene& scene, const Camera& camera, const PoseOfRow& pose
       // The ray has depth 1, so the distance along it is the depth of what it hits.
       const Hit hit = castRay(scene, textures, T_world_camera.translation(),
                               T_world_camera.linear() * rayOf(camera, {x, y}, range));
-      frame.image.at<unsigned char>(y, x) = greyLevel(255.0 * lightOf(light, hit.brightness, x, y));
+      frame.image.at<unsigned char>(y, x) = grayLevel(255.0 * lightOf(light, hit.brightness, x, y));
       if (sensor.integer_depth) {
         frame.depth.at<unsigned short>(y, x) =
             static_cast<unsigned short>(std::lround(1000.0 * hit.depth));
@@ -179,7 +179,7 @@ Frame withNoise(const Frame& frame, double deviation, std::uint64_t seed) {
   for (int y = 0; y < noisy.image.rows; ++y) {
     for (int x = 0; x < noisy.image.cols; ++x) {
       auto& pixel = noisy.image.at<unsigned char>(y, x);
-      pixel = greyLevel(pixel + deviation * random.normal());
+      pixel = grayLevel(pixel + deviation * random.normal());
     }
   }
   return noisy;

@@ -57,7 +57,7 @@ TEST(SceneTest, APlaceOnTheWallLooksTheSameFromEverywhere) {
   EXPECT_GT(compared, 200);
 }
 
-TEST(SceneTest, TheTextureUsesTheGreyLevelsAndIsSkewed) {
+TEST(SceneTest, TheTextureUsesTheGrayLevelsAndIsSkewed) {
   const Frame frame = render(roomScene(), smallCamera(), Eigen::Isometry3d::Identity());
   cv::Scalar mean;
   cv::Scalar deviation;
@@ -86,7 +86,7 @@ TEST(SceneTest, LightAndNoiseDoWhatTheySay) {
   EXPECT_NEAR(deviation[0], 4.0, 0.2);
 }
 
-TEST(SceneTest, IntegerDepthIsInMillimetres) {
+TEST(SceneTest, IntegerDepthIsInMillimeters) {
   Sensor sensor;
   sensor.integer_depth = true;
   const Frame frame = render(wallScene(), smallCamera(), Eigen::Isometry3d::Identity(), {}, sensor);

@@ -13,14 +13,14 @@
 
 namespace mivo::testing {
 
-/// Grey level of a wall at a place on it, metres to the right and down.
+/// Gray level of a wall at a place on it, meters to the right and down.
 using Paint = std::function<double(double x, double y)>;
 
-/// A wall two metres in front of a camera that looks straight at it, wherever it slides along it.
+/// A wall two meters in front of a camera that looks straight at it, wherever it slides along it.
 struct Wall {
   Paint paint;
   double distance = 2.0;       ///< m
-  double grey_noise = 2.0;     ///< grey levels
+  double gray_noise = 2.0;     ///< gray levels
   double depth_noise = 0.004;  ///< m
 
   Frame seenFrom(const Camera& camera, const Eigen::Vector2d& place, double stamp) const {
@@ -33,9 +33,9 @@ struct Wall {
       const double y = place.y() + distance * (v - camera.cy) / camera.fy;
       for (int u = 0; u < camera.width; ++u) {
         const double x = place.x() + distance * (u - camera.cx) / camera.fx;
-        const double grey = paint(x, y) + grey_noise * random.normal();
+        const double gray = paint(x, y) + gray_noise * random.normal();
         frame.image.at<unsigned char>(v, u) =
-            static_cast<unsigned char>(std::lround(std::min(std::max(grey, 0.0), 255.0)));
+            static_cast<unsigned char>(std::lround(std::min(std::max(gray, 0.0), 255.0)));
         frame.depth.at<float>(v, u) = static_cast<float>(distance + depth_noise * random.normal());
       }
     }

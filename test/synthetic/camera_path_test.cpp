@@ -161,13 +161,13 @@ TEST(CameraPath, StaysClearOfTheFurnitureAndSeesThingsInRange) {
   }
 }
 
-TEST(CameraPath, SlidesOnFromTheCentreWithModerateAccelerations) {
+TEST(CameraPath, SlidesOnFromTheCenterWithModerateAccelerations) {
   const Viewpoint& viewpoint = sharedScene("blank").viewpoint;
   constexpr double kStep = 1e-3;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const CameraPath path("slide", viewpoint, seed);
     const auto position = [&](double t) { return Eigen::Vector3d(path.poseAt(t).translation()); };
-    EXPECT_EQ(position(0.0), viewpoint.centre) << seed;
+    EXPECT_EQ(position(0.0), viewpoint.center) << seed;
     for (double t = 0.0; t < 10.0; t += 0.1) {
       const Eigen::Vector3d acceleration =
           (position(t + kStep) - 2.0 * position(t) + position(t - kStep)) / (kStep * kStep);

@@ -12,19 +12,19 @@
 namespace mivo {
 namespace {
 
-// A grey wall: its value follows from light and exposure alone.
-double greyOf(double light, const ExposureSetting& setting, const Imager& imager) {
+// A gray wall: its value follows from light and exposure alone.
+double grayOf(double light, const ExposureSetting& setting, const Imager& imager) {
   return imager.encode(light * setting.product());
 }
 
 std::vector<double> products(ExposureControlOptions options, const std::vector<double>& lights) {
   const Imager imager{ImagerOptions{}};
-  const double target = imager.linear(options.target_grey);
+  const double target = imager.linear(options.target_gray);
   ExposureControl control(options, {target / lights.front(), 1.0});
   std::vector<double> result;
   for (const double light : lights) {
     result.push_back(control.current().product());
-    control.advance(greyOf(light, control.current(), imager), imager);
+    control.advance(grayOf(light, control.current(), imager), imager);
   }
   return result;
 }
@@ -77,7 +77,7 @@ TEST(ExposureControl, RefusesWhatCannotWork) {
   options.delay = 0;
   EXPECT_THROW(ExposureControl(options, {}), Error);
   options = {};
-  options.target_grey = 255.0;
+  options.target_gray = 255.0;
   EXPECT_THROW(ExposureControl(options, {}), Error);
   options = {};
   options.max_time = 0.0001;

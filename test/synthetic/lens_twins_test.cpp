@@ -34,9 +34,9 @@ double errorBehind(const Camera& camera) {
       const SyntheticFrame filmed = generator.next();
       Frame frame;
       frame.stamp = filmed.stamp;
-      frame.image = toGrey(filmed.colour, ChannelOrder::kBgr);
+      frame.image = toGray(filmed.color, ChannelOrder::kBgr);
       frame.depth = filmed.depth;
-      frame.depth_unit = 1.0 / options.sensor.depth.units_per_metre;
+      frame.depth_unit = 1.0 / options.sensor.depth.units_per_meter;
       const TrackingResult& result = odometry.process(frame);
       EXPECT_EQ(result.state, TrackingState::kTracking);
       truth.push_back({filmed.stamp, filmed.T_world_camera});

@@ -15,7 +15,7 @@
 namespace mivo {
 namespace {
 
-// Grey levels out of 255, where an edge falls between pixels.
+// Gray levels out of 255, where an edge falls between pixels.
 constexpr double kRounding = 1.0;
 constexpr double kDepthRounding = 3e-5;  // m
 
@@ -60,7 +60,7 @@ class OpenDirections : public testing::Test {
     const PoseAtTime pose = [&](double) { return T_world_camera; };
     const LightAtTime light = [&](double t) { return lighting.at(t); };
     Shutter shutter;
-    return {renderer.renderColour(pose, light, shutter),
+    return {renderer.renderColor(pose, light, shutter),
             renderer.renderSurface(pose, light, shutter, Eigen::Vector2f::Zero()).depth};
   }
   static Renderer rendererOf(const std::string& scene, std::uint64_t seed) {
@@ -69,7 +69,7 @@ class OpenDirections : public testing::Test {
   static Eigen::Isometry3d somewhere(const Renderer& renderer, std::uint64_t seed) {
     return CameraPath("slide", renderer.scene().viewpoint, seed).poseAt(1.3);
   }
-  // The largest difference of grey values, of light that would make 255 of its brightest.
+  // The largest difference of gray values, of light that would make 255 of its brightest.
   static double difference(const View& a, const View& b) {
     return 255.0 * cv::norm(a.light, b.light, cv::NORM_INF) / cv::norm(a.light, cv::NORM_INF);
   }
@@ -152,7 +152,7 @@ TEST_F(OpenDirections, LightIsEven) {
   Shutter shutter;
   for (const double t : {0.5, 2.5}) {
     shutter.mid_time = t;
-    const cv::Mat light = renderer.renderColour(
+    const cv::Mat light = renderer.renderColor(
         pose, [&](double at) { return lighting.at(at); }, shutter);
     double low = 0.0;
     double high = 0.0;

@@ -36,8 +36,8 @@ TEST(GaussianTable, HasUnitVarianceAndTheKurtosisOfANormal) {
   EXPECT_NEAR(fourth, 3.0, 2e-2);
 }
 
-// Neighbouring pixels and the channels of one pixel must not resemble each other.
-TEST(HashOf, GivesUncorrelatedNoiseToNeighbours) {
+// Neighboring pixels and the channels of one pixel must not resemble each other.
+TEST(HashOf, GivesUncorrelatedNoiseToNeighbors) {
   constexpr int kSize = 256;
   double across = 0.0;
   double down = 0.0;

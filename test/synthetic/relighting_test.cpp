@@ -14,7 +14,7 @@ namespace {
 constexpr int kFrames = 100;
 const SequenceTime kTime{kFrames, 1.0 / 30.0};
 
-cv::Mat greyWall(int value = 100) {
+cv::Mat grayWall(int value = 100) {
   return cv::Mat(120, 160, CV_8UC1, cv::Scalar(value));
 }
 
@@ -39,9 +39,9 @@ double meanLight(const cv::Mat& image) {
 }
 
 TEST(Relighting, GlobalLightsMultiplyLinearLight) {
-  const double before = meanLight(greyWall());
+  const double before = meanLight(grayWall());
   for (const char* name : {"ramp", "step", "ramp_step", "oscillating"}) {
-    const std::vector<cv::Mat> images = relit(name, greyWall());
+    const std::vector<cv::Mat> images = relit(name, grayWall());
     const LightingCurve curve = *lightingCurve(name);
     for (int k = 0; k < kFrames; k += 9) {
       const double factor = illuminance(curve, k * kTime.period, kTime) / nominalIlluminance(curve);
@@ -52,7 +52,7 @@ TEST(Relighting, GlobalLightsMultiplyLinearLight) {
 }
 
 TEST(Relighting, OscillationSpansAFactorOfFour) {
-  const std::vector<cv::Mat> images = relit("oscillating", greyWall());
+  const std::vector<cv::Mat> images = relit("oscillating", grayWall());
   double low = 1e9;
   double high = 0.0;
   for (const cv::Mat& image : images) {
@@ -63,8 +63,8 @@ TEST(Relighting, OscillationSpansAFactorOfFour) {
 }
 
 TEST(Relighting, BlackFramesShowReadNoiseOnly) {
-  const std::vector<cv::Mat> white = relit("black", greyWall(230));
-  const std::vector<cv::Mat> dark = relit("black", greyWall(30));
+  const std::vector<cv::Mat> white = relit("black", grayWall(230));
+  const std::vector<cv::Mat> dark = relit("black", grayWall(30));
   int black = 0;
   for (std::size_t k = 0; k < kFrames; ++k) {
     if (cv::mean(white[k])[0] < 20.0) {
@@ -79,14 +79,14 @@ TEST(Relighting, BlackFramesShowReadNoiseOnly) {
 
 TEST(Relighting, DarkFramesStillShowTheScene) {
   const std::size_t middle = kFrames / 2;
-  const double bright = cv::mean(relit("darkness", greyWall(230))[middle])[0];
-  const double dark = cv::mean(relit("darkness", greyWall(30))[middle])[0];
+  const double bright = cv::mean(relit("darkness", grayWall(230))[middle])[0];
+  const double dark = cv::mean(relit("darkness", grayWall(30))[middle])[0];
   EXPECT_LT(bright, 60.0);
   EXPECT_GT(bright, dark + 5.0);
 }
 
 TEST(Relighting, SpotSaturatesItsMiddleAndMoves) {
-  const std::vector<cv::Mat> images = relit("spot", greyWall(140));
+  const std::vector<cv::Mat> images = relit("spot", grayWall(140));
   cv::Point first;
   cv::Point later;
   double high = 0.0;
@@ -99,12 +99,12 @@ TEST(Relighting, SpotSaturatesItsMiddleAndMoves) {
   EXPECT_GT(cv::norm(first - later), 20.0);
 }
 
-TEST(Relighting, GradientKeepsTheCentre) {
-  const std::vector<cv::Mat> images = relit("gradient", greyWall());
-  const cv::Rect centre(75, 55, 10, 10);
+TEST(Relighting, GradientKeepsTheCenter) {
+  const std::vector<cv::Mat> images = relit("gradient", grayWall());
+  const cv::Rect center(75, 55, 10, 10);
   double spread = 0.0;
   for (const cv::Mat& image : images) {
-    EXPECT_NEAR(cv::mean(image(centre))[0], 100.0, 3.0);
+    EXPECT_NEAR(cv::mean(image(center))[0], 100.0, 3.0);
     spread = std::max(spread, std::abs(cv::mean(image.colRange(0, 10))[0] -
                                        cv::mean(image.colRange(150, 160))[0]));
   }
@@ -112,23 +112,23 @@ TEST(Relighting, GradientKeepsTheCentre) {
 }
 
 TEST(Relighting, InversionFlipsTheSecondHalfExactly) {
-  const std::vector<cv::Mat> images = relit("inversion", greyWall());
-  EXPECT_EQ(cv::norm(images[49], greyWall(), cv::NORM_INF), 0.0);
-  EXPECT_EQ(cv::norm(images[50], greyWall(155), cv::NORM_INF), 0.0);
+  const std::vector<cv::Mat> images = relit("inversion", grayWall());
+  EXPECT_EQ(cv::norm(images[49], grayWall(), cv::NORM_INF), 0.0);
+  EXPECT_EQ(cv::norm(images[50], grayWall(155), cv::NORM_INF), 0.0);
 }
 
 TEST(Relighting, GammaKeepsBlackAndWhite) {
-  for (const cv::Mat& image : relit("gamma", greyWall(0)))
+  for (const cv::Mat& image : relit("gamma", grayWall(0)))
     EXPECT_EQ(cv::norm(image, cv::NORM_INF), 0.0);
-  for (const cv::Mat& image : relit("gamma", greyWall(255)))
+  for (const cv::Mat& image : relit("gamma", grayWall(255)))
     EXPECT_EQ(cv::countNonZero(image != 255), 0);
-  EXPECT_NEAR(cv::mean(relit("gamma", greyWall())[11])[0], 255.0 * std::pow(100.0 / 255.0, 1.8),
+  EXPECT_NEAR(cv::mean(relit("gamma", grayWall())[11])[0], 255.0 * std::pow(100.0 / 255.0, 1.8),
               1.5);
 }
 
 TEST(Relighting, AutoExposureFollowsTenFramesLate) {
-  const std::vector<cv::Mat> automatic = relit("auto_exposure", greyWall());
-  const std::vector<cv::Mat> fixed = relit("oscillating", greyWall());
+  const std::vector<cv::Mat> automatic = relit("auto_exposure", grayWall());
+  const std::vector<cv::Mat> fixed = relit("oscillating", grayWall());
   // Until the first measurement acts both are the same light.
   for (std::size_t k = 0; k < 10; ++k) {
     EXPECT_NEAR(cv::mean(automatic[k])[0], cv::mean(fixed[k])[0], 0.5) << k;
@@ -136,7 +136,7 @@ TEST(Relighting, AutoExposureFollowsTenFramesLate) {
   EXPECT_GT(std::abs(cv::mean(automatic[14])[0] - cv::mean(fixed[14])[0]), 3.0);
 }
 
-TEST(Relighting, ColourAndAlphaKeepTheirPlaces) {
+TEST(Relighting, ColorAndAlphaKeepTheirPlaces) {
   const cv::Mat image(60, 80, CV_8UC4, cv::Scalar(40, 90, 160, 77));
   Relighting relighting("step", kTime, 1);
   const cv::Mat changed = relighting.relight(image);
@@ -149,7 +149,7 @@ TEST(Relighting, ColourAndAlphaKeepTheirPlaces) {
 }
 
 TEST(Relighting, SameSeedSameBytes) {
-  EXPECT_EQ(cv::norm(relit("spot", greyWall())[7], relit("spot", greyWall())[7], cv::NORM_INF),
+  EXPECT_EQ(cv::norm(relit("spot", grayWall())[7], relit("spot", grayWall())[7], cv::NORM_INF),
             0.0);
 }
 

@@ -15,7 +15,7 @@ const SequenceTime kTime{301, 1.0 / 30.0};
 
 // The stated lux are those of the lamps' own geometry: inverse squares, cosines and reflected
 // light.
-TEST(SceneLighting, IlluminanceAtTheRoomsCentreIsAsStated) {
+TEST(SceneLighting, IlluminanceAtTheRoomsCenterIsAsStated) {
   for (const std::string& name : sceneNames()) {
     const Renderer renderer(sharedScene(name), xtionCamera(32, 24), 1);
     const auto measured = [&](const char* lighting, double t) {

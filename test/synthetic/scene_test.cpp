@@ -30,7 +30,7 @@ std::vector<Patch> shapes() {
 }
 
 // Upright pictures, seen from outside: u to the right, v down, hence dv x du points at the viewer.
-TEST(Patch, NormalIsThatOfTheParametrisation) {
+TEST(Patch, NormalIsThatOfTheParametrization) {
   constexpr float kStep = 1e-2F;
   for (const Patch& patch : shapes()) {
     for (const float u : {0.1F, 0.37F, 0.8F}) {

@@ -42,7 +42,7 @@ TEST(SequenceGenerator, SameBytesForAnyNumberOfThreadsAndInEveryRun) {
   const std::vector<SyntheticFrame> five = film(options);
   cv::setNumThreads(threads);
   for (std::size_t k = 0; k < one.size(); ++k) {
-    EXPECT_EQ(difference(one[k].colour, five[k].colour), 0.0) << k;
+    EXPECT_EQ(difference(one[k].color, five[k].color), 0.0) << k;
     EXPECT_EQ(difference(one[k].depth, five[k].depth), 0.0) << k;
     EXPECT_EQ(one[k].T_world_camera.matrix(), five[k].T_world_camera.matrix()) << k;
   }
@@ -51,11 +51,11 @@ TEST(SequenceGenerator, SameBytesForAnyNumberOfThreadsAndInEveryRun) {
 TEST(SequenceGenerator, SeedsGiveDifferentSequences) {
   GeneratorOptions options = smallOptions();
   options.frames = 1;
-  const cv::Mat first = film(options)[0].colour;
+  const cv::Mat first = film(options)[0].color;
   options.seed = 2;
-  EXPECT_GT(cv::norm(first, film(options)[0].colour, cv::NORM_L1) /
-                static_cast<double>(first.total() * 3),
-            10.0);
+  EXPECT_GT(
+      cv::norm(first, film(options)[0].color, cv::NORM_L1) / static_cast<double>(first.total() * 3),
+      10.0);
 }
 
 TEST(SequenceGenerator, StampsAndPosesBelongTogether) {
@@ -65,7 +65,7 @@ TEST(SequenceGenerator, StampsAndPosesBelongTogether) {
     EXPECT_NEAR(frame.stamp, 1.0 + k / 30.0, 1e-12);
     EXPECT_EQ(frame.T_world_camera.matrix(), generator.path().poseAt(k / 30.0).matrix());
     EXPECT_EQ(frame.depth.type(), CV_16UC1);
-    EXPECT_EQ(frame.colour.size(), cv::Size(160, 120));
+    EXPECT_EQ(frame.color.size(), cv::Size(160, 120));
     EXPECT_TRUE(frame.right.empty());
   }
   EXPECT_TRUE(generator.atEnd());
@@ -76,7 +76,7 @@ TEST(SequenceGenerator, FirstFrameIsMetered) {
     GeneratorOptions options = smallOptions();
     options.scene = scene;
     options.frames = 1;
-    EXPECT_NEAR(meanGrey(film(options)[0].colour), 110.0, 4.0) << scene;
+    EXPECT_NEAR(meanGray(film(options)[0].color), 110.0, 4.0) << scene;
   }
 }
 
@@ -94,14 +94,14 @@ TEST(SequenceGenerator, RowsOfARollingShutterSeeTheirOwnTime) {
   rolling.exposure = 0.01;
   rolling.readout = 0.025;
   rolling.samples = 3;
-  const cv::Mat image = renderer.renderColour(pose, light, rolling);
+  const cv::Mat image = renderer.renderColor(pose, light, rolling);
   const SurfaceImage surface =
       renderer.renderSurface(pose, light, rolling, Eigen::Vector2f::Zero());
   for (const int row : {0, 31, 60, 119}) {
     Shutter global = rolling;
     global.readout = 0.0;
     global.mid_time = 0.4 + ((row + 0.5) / 120 - 0.5) * 0.025;
-    EXPECT_EQ(difference(image.row(row), renderer.renderColour(pose, light, global).row(row)), 0.0)
+    EXPECT_EQ(difference(image.row(row), renderer.renderColor(pose, light, global).row(row)), 0.0)
         << row;
     EXPECT_EQ(
         difference(
@@ -112,7 +112,7 @@ TEST(SequenceGenerator, RowsOfARollingShutterSeeTheirOwnTime) {
   }
   Shutter wrong = rolling;
   wrong.readout = 0.0;
-  EXPECT_GT(difference(image.row(0), renderer.renderColour(pose, light, wrong).row(0)), 0.0);
+  EXPECT_GT(difference(image.row(0), renderer.renderColor(pose, light, wrong).row(0)), 0.0);
 }
 
 TEST(SequenceGenerator, MotionBlurIsTheMeanOverTheExposure) {
@@ -124,7 +124,7 @@ TEST(SequenceGenerator, MotionBlurIsTheMeanOverTheExposure) {
   // one.
   const auto still = [&](double shift) {
     Shutter sharp;
-    return renderer.renderColour(
+    return renderer.renderColor(
         [&](double) {
           return generator.path().poseAt(0.0) * Eigen::Translation3d(shift, 0.0, 0.0);
         },
@@ -133,7 +133,7 @@ TEST(SequenceGenerator, MotionBlurIsTheMeanOverTheExposure) {
   Shutter blurred;
   blurred.exposure = 0.3;
   blurred.samples = 3;
-  const cv::Mat image = renderer.renderColour(
+  const cv::Mat image = renderer.renderColor(
       [&](double t) {
         return generator.path().poseAt(0.0) * Eigen::Translation3d(0.4 * t, 0.0, 0.0);
       },
@@ -151,11 +151,11 @@ TEST(SequenceGenerator, TheLensBlursTheLight) {
   options.sensor.makeIdeal();
   options.sensor.gain = 0.7;  // nothing is clipped
   options.sensor.imager.transfer = Transfer::kLinear;
-  const cv::Mat sharp = film(options)[0].colour;
+  const cv::Mat sharp = film(options)[0].color;
   options.sensor.lens_blur = 1.5;
   cv::Mat expected;
   cv::GaussianBlur(sharp, expected, cv::Size(), 1.5, 1.5, cv::BORDER_REPLICATE);
-  EXPECT_LE(difference(film(options)[0].colour, expected), 2.0);
+  EXPECT_LE(difference(film(options)[0].color, expected), 2.0);
   EXPECT_GT(difference(sharp, expected), 20.0);
 }
 
@@ -171,7 +171,7 @@ TEST(SequenceGenerator, OnlyBlindFramesLoseTheTexture) {
   for (std::size_t k = 0; k < frames.size(); ++k) {
     double low = 0.0;
     double high = 0.0;
-    cv::minMaxLoc(frames[k].colour.reshape(1), &low, &high);
+    cv::minMaxLoc(frames[k].color.reshape(1), &low, &high);
     EXPECT_EQ(high - low > 50.0, k == 0 || k == 3) << k << ": " << low << " to " << high;
   }
   options.blind_frames = 0;  // blind throughout; the same surface and path
@@ -197,7 +197,7 @@ TEST(SequenceGenerator, RightCameraSeesTheDisparity) {
   options.sensor.makeIdeal();
   options.sensor.stereo_baseline = 0.1;
   const SyntheticFrame frame = film(options)[0];
-  ASSERT_EQ(frame.right.size(), frame.colour.size());
+  ASSERT_EQ(frame.right.size(), frame.color.size());
   double matched = 0.0;
   double unmatched = 0.0;
   for (int y = 5; y < 115; ++y) {
@@ -209,9 +209,9 @@ TEST(SequenceGenerator, RightCameraSeesTheDisparity) {
       const double a = u - u0;
       const double there = (1 - a) * frame.right.at<cv::Vec3b>(y, u0)[1] +
                            a * frame.right.at<cv::Vec3b>(y, u0 + 1)[1];
-      matched += std::abs(there - frame.colour.at<cv::Vec3b>(y, x)[1]);
+      matched += std::abs(there - frame.color.at<cv::Vec3b>(y, x)[1]);
       unmatched +=
-          std::abs(frame.right.at<cv::Vec3b>(y, x)[1] - frame.colour.at<cv::Vec3b>(y, x)[1]);
+          std::abs(frame.right.at<cv::Vec3b>(y, x)[1] - frame.color.at<cv::Vec3b>(y, x)[1]);
     }
   }
   EXPECT_LT(matched, 0.35 * unmatched);
@@ -233,11 +233,11 @@ TEST(SequenceGenerator, DepthIsTakenLaterByItsTimeOffset) {
   options.frames = 2;
   options.sensor.makeIdeal();
   const std::vector<SyntheticFrame> together = film(options);
-  // A whole frame period later: the second frame's depth beside the first one's colour.
+  // A whole frame period later: the second frame's depth beside the first one's color.
   options.sensor.depth_time_offset = 1.0 / options.rate;
   const std::vector<SyntheticFrame> later = film(options);
   EXPECT_EQ(difference(later[0].exact_depth, together[1].exact_depth), 0.0);
-  EXPECT_EQ(difference(later[0].colour, together[0].colour), 0.0);
+  EXPECT_EQ(difference(later[0].color, together[0].color), 0.0);
   EXPECT_GT(difference(later[0].exact_depth, together[0].exact_depth), 0.0);
   options.sensor.depth_time_offset = -1.0 / options.rate;
   EXPECT_EQ(difference(film(options)[1].exact_depth, together[0].exact_depth), 0.0);
@@ -258,9 +258,9 @@ TEST(SequenceGenerator, AutomaticExposureLagsBehindTheLight) {
   const double wanted = before * frames[25].lux / frames[40].lux;
   EXPECT_NEAR(frames[36].exposure.product() / before, 1.0, 0.02);
   EXPECT_GT(frames[37].exposure.product() / before, 1.5);
-  EXPECT_NEAR(meanGrey(frames[59].colour), 110.0, 6.0);
+  EXPECT_NEAR(meanGray(frames[59].color), 110.0, 6.0);
   EXPECT_GT(frames[59].exposure.product(), 0.7 * wanted);
-  EXPECT_LT(meanGrey(frames[32].colour), 70.0);
+  EXPECT_LT(meanGray(frames[32].color), 70.0);
 }
 
 TEST(SequenceGenerator, RefusesWhatCannotBeFilmed) {

@@ -84,10 +84,10 @@ TEST(TexturePatterns, StayReflectancesAndHaveStructure) {
     float high = 0.0F;
     for (int y = 0; y < texture.height(); y += 5) {
       for (int x = 0; x < texture.width(); x += 5) {
-        const Eigen::Array3f colour =
+        const Eigen::Array3f color =
             texture.sample(static_cast<float>(x), static_cast<float>(y), 1.0F).head<3>();
-        low = std::min(low, colour.minCoeff());
-        high = std::max(high, colour.maxCoeff());
+        low = std::min(low, color.minCoeff());
+        high = std::max(high, color.maxCoeff());
       }
     }
     EXPECT_GT(low, 0.0F);

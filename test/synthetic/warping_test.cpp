@@ -67,7 +67,7 @@ struct Match {
 };
 
 // Whether the pixels around lie on one plane: inverse depth is then linear in the image. A step of
-// a few centimetres is enough to mix two surfaces in a pixel, whose parallax no warp can follow.
+// a few centimeters is enough to mix two surfaces in a pixel, whose parallax no warp can follow.
 bool isPlane(const cv::Mat& depth, int x, int y) {
   constexpr int kRadius = 3;
   const float inverse = 1.0F / depth.at<float>(y, x);
@@ -111,8 +111,8 @@ float green(const cv::Mat& image, int x, int y) {
 }
 
 float residual(const SyntheticFrame& reference, const SyntheticFrame& live, const Match& m) {
-  return m.live.sum([&](int x, int y) { return green(live.colour, x, y); }) -
-         green(reference.colour, m.x, m.y);
+  return m.live.sum([&](int x, int y) { return green(live.color, x, y); }) -
+         green(reference.color, m.x, m.y);
 }
 
 // One Gauss-Newton step of the live pose: T_live_ref should become retract(step) * T_live_ref.
@@ -124,10 +124,10 @@ Vector6 gaussNewtonStep(const SyntheticFrame& reference, const SyntheticFrame& l
     const float r = residual(reference, live, m);
     if (std::abs(r) > 20.0F) continue;  // highlights wander with the viewer
     const float gx = 0.5F * m.live.sum([&](int x, int y) {
-      return green(live.colour, x + 1, y) - green(live.colour, x - 1, y);
+      return green(live.color, x + 1, y) - green(live.color, x - 1, y);
     });
     const float gy = 0.5F * m.live.sum([&](int x, int y) {
-      return green(live.colour, x, y + 1) - green(live.colour, x, y - 1);
+      return green(live.color, x, y + 1) - green(live.color, x, y - 1);
     });
     const double z = m.point.z();
     const Eigen::Vector3d by_point(
@@ -164,7 +164,7 @@ TEST(Warping, IdealSensorLeavesOnlyTheErrorOfInterpolation) {
     std::vector<float> unwarped;
     for (const Match& m : matches) {
       magnitudes.push_back(std::abs(residual(a, b, m)));
-      unwarped.push_back(std::abs(green(b.colour, m.x, m.y) - green(a.colour, m.x, m.y)));
+      unwarped.push_back(std::abs(green(b.color, m.x, m.y) - green(a.color, m.x, m.y)));
     }
     const auto median = static_cast<std::ptrdiff_t>(matches.size() / 2);
     std::nth_element(magnitudes.begin(), magnitudes.begin() + median, magnitudes.end());
@@ -208,7 +208,7 @@ TEST(Warping, NoiseHasTheVarianceOfTheSensorModel) {
   const std::vector<SyntheticFrame> without = film(clean);
   const ImagerOptions& model = noisy.sensor.imager;
   const Imager imager(model);
-  // Grey levels squared, of one pixel: the sensor's noise through the slope of the encoding, and
+  // Gray levels squared, of one pixel: the sensor's noise through the slope of the encoding, and
   // the difference of two roundings.
   const auto variance = [&](float value) {
     const double light = imager.linear(value);
@@ -220,14 +220,14 @@ TEST(Warping, NoiseHasTheVarianceOfTheSensorModel) {
   double sum = 0.0;
   int count = 0;
   for (const Match& m : match(without[0], without[1], noisy.camera)) {
-    const float value = green(without[0].colour, m.x, m.y);
+    const float value = green(without[0].color, m.x, m.y);
     if (value < 40.0F || value > 215.0F)
       continue;  // clipping, and where the encoding is not linear
     double predicted = variance(value);
     const std::array<std::array<int, 2>, 4> corners{{{0, 0}, {1, 0}, {0, 1}, {1, 1}}};
     for (std::size_t k = 0; k < 4; ++k) {
       const float corner =
-          green(without[1].colour, m.live.x + corners[k][0], m.live.y + corners[k][1]);
+          green(without[1].color, m.live.x + corners[k][0], m.live.y + corners[k][1]);
       predicted += m.live.weights[k] * m.live.weights[k] * variance(corner);
     }
     const double added = residual(with[0], with[1], m) - residual(without[0], without[1], m);

@@ -8,7 +8,7 @@ namespace mivo {
 
 /// How a ray's angle becomes a distance from the principal point.
 enum class LensModel {
-  /// OpenCV's and ROS' "plumb_bob" and "rational_polynomial", of the normalised radius r: r (1 +
+  /// OpenCV's and ROS' "plumb_bob" and "rational_polynomial", of the normalized radius r: r (1 +
   /// k1 r^2 + k2 r^4 + k3 r^6) / (1 + k4 r^2 + k5 r^4 + k6 r^6), and tangential p1, p2.
   kPolynomial,
   /// ROS' "equidistant", OpenCV's fisheye, of the angle a to the optical axis: a (1 + k1 a^2 +
@@ -16,7 +16,7 @@ enum class LensModel {
   kEquidistant
 };
 
-/// Lens distortion, in OpenCV's order, acting on normalised coordinates. It does not change with
+/// Lens distortion, in OpenCV's order, acting on normalized coordinates. It does not change with
 /// the pyramid level.
 struct Distortion {
   double k1 = 0.0;
@@ -39,13 +39,13 @@ struct Distortion {
 };
 
 /// Radius around the optical axis within which the lens model is invertible: each pixel has one
-/// ray. Radii in normalised coordinates; both infinite for a lens without distortion.
+/// ray. Radii in normalized coordinates; both infinite for a lens without distortion.
 struct LensRange {
   double undistorted;  ///< of rays
   double distorted;    ///< of pixels: (pixel - principal point) / focal length
 };
 
-/// Pinhole camera with distortion. Pixel centres lie at integer coordinates; x right, y down, z
+/// Pinhole camera with distortion. Pixel centers lie at integer coordinates; x right, y down, z
 /// forward (optical frame, REP 103).
 struct Camera {
   int width = 0;
@@ -62,7 +62,7 @@ struct Camera {
   void validate() const;
 
   /// The camera of pyramid level `level` (0: this one). Levels are reduced by a Gaussian that keeps
-  /// the even pixels (cv::pyrDown): pixel (x, y) of a level is centred on (2x, 2y) of the finer
+  /// the even pixels (cv::pyrDown): pixel (x, y) of a level is centered on (2x, 2y) of the finer
   /// one, so focal lengths and principal point halve exactly, with no half pixel added.
   Camera atLevel(int level) const;
 
@@ -80,7 +80,7 @@ struct Camera {
   /// camera or of another level of it.
   std::optional<Eigen::Vector3d> ray(const Eigen::Vector2d& pixel, const LensRange& range) const;
 
-  /// Distorted from undistorted normalised coordinates, and the derivative.
+  /// Distorted from undistorted normalized coordinates, and the derivative.
   Eigen::Vector2d distort(const Eigen::Vector2d& undistorted,
                           Eigen::Matrix2d* derivative = nullptr) const;
 

@@ -13,7 +13,7 @@
 
 namespace mivo {
 
-/// A coloured point of the keyframe, for display: metres in the keyframe's optical frame, grey
+/// A colored point of the keyframe, for display: meters in the keyframe's optical frame, gray
 /// 0..255.
 struct CloudPoint {
   float x;

@@ -5,7 +5,7 @@
 #include <Eigen/Geometry>
 
 // Rigid motions. T_a_b maps coordinates in b to coordinates in a. Six-vectors hold the translation
-// first, then the rotation: metres and radians.
+// first, then the rotation: meters and radians.
 
 namespace mivo {
 
@@ -34,9 +34,9 @@ Eigen::Isometry3d expSe3(const Vector6& twist);
 /// Twist of a rigid motion; the paper's Eq. 6 measures errors by it.
 Vector6 logSe3(const Eigen::Isometry3d& T);
 
-/// The same motion with an orthonormalised rotation. Needed for products of many motions: with the
+/// The same motion with an orthonormalized rotation. Needed for products of many motions: with the
 /// transpose as inverse, rounding errors would triple with each frame.
-Eigen::Isometry3d orthonormalised(const Eigen::Isometry3d& T);
+Eigen::Isometry3d orthonormalized(const Eigen::Isometry3d& T);
 
 /// Adjoint in the order (translation, rotation): twist_a = adjoint(T_a_b) twist_b.
 Matrix6 adjoint(const Eigen::Isometry3d& T);

@@ -13,7 +13,7 @@ namespace mivo {
 constexpr int kMaxLevels = 8;
 
 enum class TrackingState {
-  kInitialising,  ///< no keyframe yet: the frame could not become one
+  kInitializing,  ///< no keyframe yet: the frame could not become one
   kTracking,      ///< the pose is measured
   kDegraded,      ///< the pose is measured, but weak: see the reason
   kLost           ///< the pose is a guess
@@ -38,7 +38,7 @@ enum class TrackingReason {
 /// depth.
 using Directions = std::array<bool, 6>;
 
-const char* toString(TrackingState state);    ///< initialising, tracking, degraded, lost
+const char* toString(TrackingState state);    ///< initializing, tracking, degraded, lost
 const char* toString(TrackingReason reason);  ///< a few words
 
 /// Alignment on one pyramid level.
@@ -67,7 +67,7 @@ struct StageTimes {
 /// Output of Odometry for one frame. All numbers are finite in every state.
 struct TrackingResult {
   double stamp = 0.0;  ///< s, of the frame
-  TrackingState state = TrackingState::kInitialising;
+  TrackingState state = TrackingState::kInitializing;
   TrackingReason reason = TrackingReason::kNone;
 
   /// Directions that the frame does not constrain, with reason kOpenDirections. Along them the pose
@@ -86,7 +86,7 @@ struct TrackingResult {
     return !isRefused() && (state == TrackingState::kTracking || state == TrackingState::kDegraded);
   }
 
-  /// Pose of the colour camera's optical frame in the world, which is the first camera pose unless
+  /// Pose of the color camera's optical frame in the world, which is the first camera pose unless
   /// set otherwise. When lost: a guess.
   Eigen::Isometry3d T_odom_camera = Eigen::Isometry3d::Identity();
 
@@ -108,17 +108,17 @@ struct TrackingResult {
   bool new_keyframe = false;  ///< this frame became a keyframe
   int keyframes = 0;          ///< created so far
   /// Increases when tracking restarts at a guessed pose; poses of one segment are connected by
-  /// measurements. A camera that is relocalised by an older keyframe returns to its segment.
+  /// measurements. A camera that is relocalized by an older keyframe returns to its segment.
   int segment = 0;
   int points = 0;        ///< used on the finest level
   double overlap = 0.0;  ///< fraction of the keyframe's points in view, 0..1
   double mutual_information =
       0.0;                      ///< nats, with the keyframe, on the finest MI level (or 0: none)
-  double residual_scale = 0.0;  ///< grey levels, robust, on the finest SSD level (or 0: none)
+  double residual_scale = 0.0;  ///< gray levels, robust, on the finest SSD level (or 0: none)
 
   double correlation = 0.0;  ///< of frame and keyframe, -1..1, on the finest SSD level (or 0)
   double rolling_shutter_readout = 0.0;  ///< s, given or estimated; 0: global shutter
-  double depth_time_offset = 0.0;  ///< s from a row of colour to that of depth, given or estimated
+  double depth_time_offset = 0.0;  ///< s from a row of color to that of depth, given or estimated
 
   int num_levels = 0;  ///< entries of `levels`, coarsest first
   std::array<LevelRecord, kMaxLevels> levels{};

@@ -15,17 +15,17 @@ namespace mivo {
 /// A recording as a folder in the layout of the TUM RGB-D benchmark:
 ///
 ///   rgb.txt, depth.txt   lines `stamp path`, paths relative to the folder, PNG, JPEG or PGM; depth
-///                        in 16 bits, registered to the colour camera, 0 where there is no reading
-///   associations.txt     optional: lines `stamp_rgb path stamp_depth path`. Without it each colour
+///                        in 16 bits, registered to the color camera, 0 where there is no reading
+///   associations.txt     optional: lines `stamp_rgb path stamp_depth path`. Without it each color
 ///                        image gets the depth image nearest in time, 20 ms away at most
 ///   camera.txt           see readCamera; may be missing when the folder's name or another of its
 ///                        files tells the camera
 ///
 /// or as ICL-NUIM, Bonn, ETH3D-SLAM, 7-Scenes, ScanNet and SUN3D have it, see doc/file_formats.md.
 ///
-/// The stamp of a frame is that of its colour image. The frames come in the order of their stamps,
+/// The stamp of a frame is that of its color image. The frames come in the order of their stamps,
 /// whatever the order of the lines; of lines with the same stamp the first counts. Depth that is
-/// smaller than colour by a whole factor is enlarged. All this is told by notice().
+/// smaller than color by a whole factor is enlarged. All this is told by notice().
 class SequenceReader : public FrameSource {
  public:
   /// Opens the folder and looks at the first images. Throws Error when the folder or one of its
@@ -42,7 +42,7 @@ class SequenceReader : public FrameSource {
   /// its images is missing, damaged, of the wrong type or of the wrong size.
   Status next(Frame& frame, FrameFault& fault) override;
 
-  double depthUnitsPerMetre() const { return camera_.depth_units_per_metre; }
+  double depthUnitsPerMeter() const { return camera_.depth_units_per_meter; }
 
   std::string depthUnit() const override;
   const std::string& notice() const override { return notice_; }

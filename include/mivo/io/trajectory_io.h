@@ -6,8 +6,8 @@
 #include "mivo/io/output_file.h"
 #include "mivo/trajectory/stamped_pose.h"
 
-// Trajectories as text: lines `stamp tx ty tz qx qy qz qw`, the pose of the colour optical frame in
-// the world in metres, `#` for comments.
+// Trajectories as text: lines `stamp tx ty tz qx qy qz qw`, the pose of the color optical frame in
+// the world in meters, `#` for comments.
 
 namespace mivo {
 
@@ -16,7 +16,7 @@ namespace mivo {
 std::string trajectoryLine(const StampedPose& pose);
 
 /// Poses in the order of the file, whose format may also be EuRoC, KITTI or a CSV of ROS, see
-/// doc/file_formats.md. Quaternions whose norm deviates from 1 by at most 10 % are normalised.
+/// doc/file_formats.md. Quaternions whose norm deviates from 1 by at most 10 % are normalized.
 /// Throws Error, naming file and line, for anything that is not 8 finite numbers or no rotation,
 /// and when there is no pose at all.
 Trajectory readTrajectory(const std::string& path);

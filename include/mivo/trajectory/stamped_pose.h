@@ -6,7 +6,7 @@
 
 namespace mivo {
 
-/// Pose of the colour optical frame in the world at a time: maps camera to world coordinates, m.
+/// Pose of the color optical frame in the world at a time: maps camera to world coordinates, m.
 struct StampedPose {
   double stamp = 0.0;  ///< s
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();

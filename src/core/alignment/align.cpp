@@ -9,7 +9,7 @@
 namespace mivo {
 namespace {
 
-// Grey levels: less contrast on the coarsest level is only noise.
+// Gray levels: less contrast on the coarsest level is only noise.
 constexpr double kLeastContrast = 1.0;
 
 /// Whether both images have enough contrast, relative to the last view with enough.

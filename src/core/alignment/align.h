@@ -76,7 +76,7 @@ struct Alignment {
   bool is_keyframe_dark = false;             ///< the keyframe's image has too little contrast
   bool sees_depth = false;                   ///< the depth term was used on the finest level
   double mutual_information = 0.0;           ///< nats, on the finest level that uses it
-  double residual_scale = 0.0;               ///< grey levels, on the finest SSD level
+  double residual_scale = 0.0;               ///< gray levels, on the finest SSD level
   double depth_scale = 0.0;             ///< residuals of the geometric term in deviations (or 0)
   double correlation = 0.0;             ///< of the images, on the finest level
   ReadoutMeasurement readout;           ///< measured by this frame

@@ -4,7 +4,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 
-#include "core/alignment/minimise.h"
+#include "core/alignment/minimize.h"
 #include "core/alignment/open_directions.h"
 #include "core/execution/cpu_clock.h"
 #include "core/shutter/shutter_measurement.h"
@@ -18,7 +18,7 @@ constexpr int kShutterLevel = 1;
 // Errors by light, blur and depth are correlated between pixels: mutual information is
 // overconfident by about this factor.
 constexpr double kMiCountsTimes = 8.0;
-// Gradients caused by noise, grey levels per pixel. For a smoothed image: a quarter of its noise,
+// Gradients caused by noise, gray levels per pixel. For a smoothed image: a quarter of its noise,
 // up to four times that at points selected for strong gradients, and at least that of rounding and
 // compression. For an unsmoothed image: about the second value.
 constexpr double kLeastNoiseGradient = 1.0;
@@ -37,7 +37,7 @@ Vector6 twistPerPeriod(const AlignmentTask& task, const Eigen::Isometry3d& T_liv
 double correlationFactor(GeometricTerm& term) {
   Matrix6 of_gradient;
   if (term.gradientCovariance(of_gradient) < kFewestBlocks) return 1.0;
-  const Matrix6 hessian = term.linearise(0).hessian;
+  const Matrix6 hessian = term.linearize(0).hessian;
   const Matrix6 ratio = hessian.ldlt().solve(of_gradient);
   return std::max(1.0, ratio.trace() / 6.0);
 }
@@ -105,8 +105,8 @@ double LevelAligner::toleranceOf(Stage stage) const {
   return level_ > kShutterLevel ? parameters_.alignment.coarse_tolerance : 1.0;
 }
 
-/// Minimises the sum of the terms that there are.
-void LevelAligner::minimiseTerms(const LevelTerms& terms, Stage stage) {
+/// Minimizes the sum of the terms that there are.
+void LevelAligner::minimizeTerms(const LevelTerms& terms, Stage stage) {
   terms_->clear();
   for (CostTerm* term : {terms.image, terms.depth}) {
     if (term != nullptr) terms_->push_back(term);
@@ -121,7 +121,7 @@ void LevelAligner::minimiseTerms(const LevelTerms& terms, Stage stage) {
                              ? 0.0
                              : tolerance * parameters_.alignment.trusted_step_pixels;
   const Minimum minimum =
-      minimise(*terms_, alignment_.T_live_ref, static_cast<double>(points_.median_depth),
+      minimize(*terms_, alignment_.T_live_ref, static_cast<double>(points_.median_depth),
                points_.pixel_motion, parameters_, tolerance, trusted);
   alignment_.T_live_ref = minimum.T_live_ref;
   alignment_.hessian = minimum.hessian;
@@ -145,7 +145,7 @@ void LevelAligner::holdOpenDirections(const SsdTerm* intensities, bool has_prior
       curvatures.push_back(LevelAligner(task_, l, parameters_, there, record).imageCurvature());
     }
   };
-  const double noise_gradient = task_.live.isNormalised()
+  const double noise_gradient = task_.live.isNormalized()
                                     ? std::max(kLeastNoiseGradient, task_.live.contrast().noise())
                                     : kUsualNoiseGradient;
   mivo::holdOpenDirections({*terms_, has_prior, intensities, points_, warp_.camera(), add_coarser,
@@ -155,7 +155,7 @@ void LevelAligner::holdOpenDirections(const SsdTerm* intensities, bool has_prior
 
 TermCurvature LevelAligner::imageCurvature() {
   const auto curvatureOf = [&](CostTerm& term) {
-    return TermCurvature{term.linearise(kScaleIsKept).hessian, term.agreement(points_.size()),
+    return TermCurvature{term.linearize(kScaleIsKept).hessian, term.agreement(points_.size()),
                          kLeastAgreementAbove};
   };
   if (record_.mutual_information) {
@@ -201,7 +201,7 @@ void LevelAligner::alignByMutualInformation() {
     LevelTerms terms;
     terms.image = &term;
     if (task_.holds_coarse_levels && level_ > 0) terms.prior = motionPrior(kMiCountsTimes);
-    minimiseTerms(terms);
+    minimizeTerms(terms);
     record_.visible = static_cast<int>(term.numVisible());
     alignment_.overlap = share(term.numVisible());
     alignment_.mutual_information = term.mutualInformation();
@@ -219,14 +219,14 @@ void LevelAligner::alignByMutualInformation() {
     LevelTerms terms;
     terms.depth = geometry;
     if (geometry != nullptr) terms.prior = motionPrior(correlationFactor(*geometry));
-    minimiseTerms(terms);
+    minimizeTerms(terms);
     judgeDepth(*geometry);
   }
 }
 
 SsdTerm LevelAligner::intensityTerm(std::size_t num_points) const {
-  return SsdTerm(points_, num_points, task_.live.grey(level_),
-                 task_.live.isNormalised() ? &task_.live.contrast().level(level_) : nullptr, warp_,
+  return SsdTerm(points_, num_points, task_.live.gray(level_),
+                 task_.live.isNormalized() ? &task_.live.contrast().level(level_) : nullptr, warp_,
                  parameters_);
 }
 
@@ -238,7 +238,7 @@ LevelAligner::Stage LevelAligner::alignLeadingPoints() {
   LevelTerms terms;
   terms.image = &term;
   terms.depth = geometricTerm(parameters_.geometry.geometric_points);
-  minimiseTerms(terms, Stage::kLeading);
+  minimizeTerms(terms, Stage::kLeading);
   return Stage::kLast;
 }
 
@@ -261,7 +261,7 @@ void LevelAligner::alignBySsd() {
   terms.depth = geometry;
   if (!alignment_.sees_image && geometry != nullptr)
     terms.prior = motionPrior(correlationFactor(*geometry));
-  minimiseTerms(terms, stage);
+  minimizeTerms(terms, stage);
   if (geometry != nullptr) judgeDepth(*geometry);
   // If the image shows nothing, or only white, the points of the depth term count.
   record_.visible = static_cast<int>(alignment_.sees_image || geometry == nullptr

@@ -28,7 +28,7 @@ class LevelAligner {
   TermCurvature imageCurvature();
 
  private:
-  /// A level is minimised at once, or in two stages: the leading points, then all.
+  /// A level is minimized at once, or in two stages: the leading points, then all.
   enum class Stage { kOnly, kLeading, kLast };
 
   /// The terms of a level; null: not used.
@@ -36,7 +36,7 @@ class LevelAligner {
     CostTerm* image = nullptr;
     CostTerm* depth = nullptr;
     CostTerm* prior = nullptr;
-    const SsdTerm* intensities = nullptr;  ///< the image's, if its residuals are grey levels
+    const SsdTerm* intensities = nullptr;  ///< the image's, if its residuals are gray levels
   };
 
   template <typename Term>
@@ -52,7 +52,7 @@ class LevelAligner {
   void alignBySsd();
   Stage alignLeadingPoints();
   void judgeDepth(const GeometricTerm& geometry);
-  void minimiseTerms(const LevelTerms& terms, Stage stage = Stage::kOnly);
+  void minimizeTerms(const LevelTerms& terms, Stage stage = Stage::kOnly);
   void holdOpenDirections(const SsdTerm* intensities, bool has_prior);
   void measureRows(SsdTerm& term, GeometricTerm* geometry);
   double toleranceOf(Stage stage) const;

@@ -11,7 +11,7 @@ namespace mivo {
 namespace {
 
 // Derivatives of noise correlate by 1 / sqrt(number of points), and by a few times that where
-// neighbours share their noise.
+// neighbors share their noise.
 constexpr double kDeviationsOfChance = 6.0;
 // A direction with a larger standard deviation (median depths, rad) is open: it corresponds to
 // about five pixels.

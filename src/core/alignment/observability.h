@@ -71,7 +71,7 @@ class Observability {
   void findOpen();
   Matrix6 scaledCovarianceOfSeen() const;
 
-  Vector6 scale_;  // multiplies increments in median depths to give those in metres
+  Vector6 scale_;  // multiplies increments in median depths to give those in meters
   Matrix6 hessian_ = Matrix6::Zero();  // scaled, as are the other two
   Matrix6 gradient_covariance_;
   Matrix6 expected_covariance_;

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/alignment/minimise.h"
+#include "core/alignment/minimize.h"
 #include "core/alignment/pose_covariance.h"
 #include "core/execution/recycled.h"
 
@@ -26,7 +26,7 @@ constexpr double kAgreementOfTexture = 0.75;
 constexpr std::size_t kPointsAtFirst = 1024;
 // Approximate mean of the robust weights.
 constexpr double kMeanWeight = 0.5;
-// The minimisation is repeated when holding the pose has moved the points by more than this.
+// The minimization is repeated when holding the pose has moved the points by more than this.
 constexpr double kNoticeablePixels = 0.05;
 
 double pixelsOf(const Vector6& increment, const ReferencePoints& points) {
@@ -81,7 +81,7 @@ void findCurvatures(const FinishedDescent& descent, const Alignment& alignment,
     CostTerm& term = *descent.terms[i];
     term.evaluate(alignment.T_live_ref);
     const bool is_known = i == 0 && !descent.has_prior;
-    const Matrix6 hessian = is_known ? rest : term.linearise(kScaleIsKept).hessian;
+    const Matrix6 hessian = is_known ? rest : term.linearize(kScaleIsKept).hessian;
     rest -= hessian;
     curvatures.push_back({hessian, term.agreement(most_points), least_agreement});
   }
@@ -115,7 +115,7 @@ Observability lookAt(const FinishedDescent& descent, const Matrix6& expected_cov
   return seen;
 }
 
-/// Most probable increment, given the predicted pose and the result of the minimisation in the
+/// Most probable increment, given the predicted pose and the result of the minimization in the
 /// constrained directions.
 struct Held {
   Vector6 increment = Vector6::Zero();
@@ -137,7 +137,7 @@ void seekInSeenDirections(const FinishedDescent& descent, const Matrix6& open,
                           const Parameters& parameters, Alignment& alignment) {
   const Matrix6 free = Matrix6::Identity() - open;
   alignment.T_live_ref =
-      minimise(descent.terms, alignment.T_live_ref,
+      minimize(descent.terms, alignment.T_live_ref,
                static_cast<double>(descent.points.median_depth), descent.points.pixel_motion,
                parameters, 1.0, parameters.alignment.trusted_step_pixels, &free)
           .T_live_ref;
@@ -161,7 +161,7 @@ void holdOpenDirections(const FinishedDescent& descent, const Parameters& parame
       holdAtExpected(descent.expected, expected_covariance, alignment.T_live_ref, seen);
   alignment.covariance =
       held.covariance + seen.covarianceOfDirections(held.covariance) + model_error;
-  alignment.T_live_ref = orthonormalised(alignment.T_live_ref * retract(held.increment).inverse());
+  alignment.T_live_ref = orthonormalized(alignment.T_live_ref * retract(held.increment).inverse());
   if (pixelsOf(held.increment, descent.points) > kNoticeablePixels) {
     seekInSeenDirections(descent, seen.openProjector(), parameters, alignment);
   }

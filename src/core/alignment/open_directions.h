@@ -22,11 +22,11 @@ constexpr int kCoarsestAskedLevel = 2;
 /// the finest the correlation of that is up to 0.94.
 constexpr double kLeastAgreementAbove = 0.97;
 
-/// A finished minimisation on the finest level.
+/// A finished minimization on the finest level.
 struct FinishedDescent {
   const std::vector<CostTerm*>& terms;  ///< image and depth terms, evaluated at the result
   bool has_prior = false;               ///< the motion prior took part, too, and is in the Hessian
-  const SsdTerm* image = nullptr;       ///< that of them whose residuals are grey levels, if any
+  const SsdTerm* image = nullptr;       ///< that of them whose residuals are gray levels, if any
   const ReferencePoints& points;
   const Camera& camera;  ///< of the level
   /// What the images of coarser levels say at a pose, the coarsest last; asked only where the
@@ -34,7 +34,7 @@ struct FinishedDescent {
   std::function<void(const Eigen::Isometry3d& T_live_ref, std::vector<TermCurvature>& curvatures)>
       add_coarser;
   const PoseExpectation& expected;
-  /// Grey levels per pixel: along a direction with a smaller image gradient the curvature may be
+  /// Gray levels per pixel: along a direction with a smaller image gradient the curvature may be
   /// caused by noise only.
   double noise_gradient = 0.0;
 };

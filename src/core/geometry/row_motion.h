@@ -10,12 +10,12 @@ namespace mivo {
 /// Read-out times of a camera, in frame periods.
 struct ShutterTimes {
   double readout = 0.0;       ///< from the first row to the last; 0: global shutter
-  double depth_offset = 0.0;  ///< from a row of the colour image to the same row of the depth image
+  double depth_offset = 0.0;  ///< from a row of the color image to the same row of the depth image
 };
 
 /// Motion of the scene in a camera's axes while an image is taken: a row is read at the time tau
 /// (frame periods) after that of the frame's pose, and a point X is at X + tau (w x X + v) then.
-/// The pose of a frame is that of the middle row of its colour image.
+/// The pose of a frame is that of the middle row of its color image.
 struct RowMotion {
   Vector6 twist = Vector6::Zero();  ///< (v, w), m and rad per frame period
   double readout = 0.0;             ///< periods from the first row to the last; 0: global shutter
@@ -27,7 +27,7 @@ struct RowMotion {
     return readout * (row / height - 0.5) + offset;
   }
 
-  /// Displacement of a point of a row, metres.
+  /// Displacement of a point of a row, meters.
   Eigen::Vector3d displacement(const Eigen::Vector3d& point, double row, double height) const {
     return rowTime(row, height) * (twist.tail<3>().cross(point) + twist.head<3>());
   }

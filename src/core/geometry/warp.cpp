@@ -95,14 +95,14 @@ void Warp::sample(const ReferencePoints& points, std::size_t num_points,
   });
 }
 
-void Warp::sampleNormalised(const ReferencePoints& points, std::size_t num_points,
+void Warp::sampleNormalized(const ReferencePoints& points, std::size_t num_points,
                             const Eigen::Isometry3d& T_live_ref, const cv::Mat& image,
                             const ContrastMap& contrast, double saturation,
                             LiveSamples& samples) const {
   const kernels::ImageView pixels = view(image);
   const kernels::ContrastView maps = view(contrast);
   sampleChunks(points, num_points, T_live_ref, samples, [&](std::size_t begin, std::size_t n) {
-    return kernels::active().sampleNormalised(
+    return kernels::active().sampleNormalized(
         pixels, maps, static_cast<float>(saturation), samples.u.data() + begin,
         samples.v.data() + begin, samples.visible.data() + begin, n, samples.value.data() + begin);
   });

@@ -18,7 +18,7 @@ namespace mivo {
 struct LiveSamples {
   std::vector<float> u, v;     ///< pixels of the level; 0 where not visible
   std::vector<float> visible;  ///< 1: in view and not saturated; otherwise 0
-  std::vector<float> value;    ///< intensity or normalised intensity; 0 where not visible
+  std::vector<float> value;    ///< intensity or normalized intensity; 0 where not visible
   std::size_t num_visible = 0;
   std::size_t num_in_view = 0;  ///< in front of the camera and inside of the image
 };
@@ -36,8 +36,8 @@ class Warp {
               const Eigen::Isometry3d& T_live_ref, const cv::Mat& image,
               LiveSamples& samples) const;
 
-  /// The same, normalised by `contrast`; points of at least `saturation` grey levels are hidden.
-  void sampleNormalised(const ReferencePoints& points, std::size_t num_points,
+  /// The same, normalized by `contrast`; points of at least `saturation` gray levels are hidden.
+  void sampleNormalized(const ReferencePoints& points, std::size_t num_points,
                         const Eigen::Isometry3d& T_live_ref, const cv::Mat& image,
                         const ContrastMap& contrast, double saturation, LiveSamples& samples) const;
 
@@ -55,7 +55,7 @@ class Warp {
 
   Camera camera_;
   RowMotion rows_;
-  float max_radius_;  // of undistorted normalised coordinates
+  float max_radius_;  // of undistorted normalized coordinates
   int threads_;
 };
 

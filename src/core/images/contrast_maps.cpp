@@ -11,19 +11,19 @@
 namespace mivo {
 namespace {
 
-// The constant of the normalisation is the largest of three values. First, a fraction of the
+// The constant of the normalization is the largest of three values. First, a fraction of the
 // frame's RMS contrast: it changes typical values by 10 % and suppresses flat regions.
 constexpr double kContrastShare = 0.1;
-// Second, grey levels: below the rounding of 8 bits (0.29), avoids division by zero.
+// Second, gray levels: below the rounding of 8 bits (0.29), avoids division by zero.
 constexpr double kMinConstant = 0.2;
 // Third, the noise. A Gaussian reduction leaves about this fraction of it from level to level: 70 /
 // 256 of white noise, more of correlated noise.
 constexpr double kNoiseReduction = 0.3;
 // Fraction of the noise on level 0 that remains after smoothing, 6/16.
 constexpr double kNoiseSmoothed = 0.375;
-// The normalised image of a natural scene spans about +-2: 55 grey levels each.
+// The normalized image of a natural scene spans about +-2: 55 gray levels each.
 constexpr float kMiddle = 128.0F;
-constexpr float kGreyLevels = 55.0F;
+constexpr float kGrayLevels = 55.0F;
 constexpr float kWhite = 255.0F;
 
 /// One of the two values of a map, interpolated at a pixel of the level.
@@ -103,17 +103,17 @@ float localContrast(const ContrastMap& map, int x, int y) {
   return interpolated(map, x, y, 1) + map.constant;
 }
 
-float normalisedIntensity(const cv::Mat& image, const ContrastMap& map, int x, int y) {
+float normalizedIntensity(const cv::Mat& image, const ContrastMap& map, int x, int y) {
   return (intensityAt(image, x, y) - interpolated(map, x, y, 0)) / localContrast(map, x, y);
 }
 
-void normaliseImage(const cv::Mat& image, const ContrastMap& map, cv::Mat& normalised) {
-  normalised.create(image.size(), CV_32FC1);
+void normalizeImage(const cv::Mat& image, const ContrastMap& map, cv::Mat& normalized) {
+  normalized.create(image.size(), CV_32FC1);
   Recycled<std::vector<float>> scratch;
   scratch->resize(kernels::imageScratch(image.cols));
-  kernels::active().normaliseImage(
-      view(image), view(map), {map.constant, kMiddle, kGreyLevels, kWhite}, normalised.ptr<float>(),
-      static_cast<std::ptrdiff_t>(normalised.step1()), scratch->data());
+  kernels::active().normalizeImage(
+      view(image), view(map), {map.constant, kMiddle, kGrayLevels, kWhite}, normalized.ptr<float>(),
+      static_cast<std::ptrdiff_t>(normalized.step1()), scratch->data());
 }
 
 }  // namespace mivo

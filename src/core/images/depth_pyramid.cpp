@@ -6,12 +6,12 @@
 namespace mivo {
 namespace {
 
-void toMetres(const Frame& frame, float min_depth, float max_depth, cv::Mat& metres) {
-  metres.create(frame.depth.size(), CV_32FC1);
+void toMeters(const Frame& frame, float min_depth, float max_depth, cv::Mat& meters) {
+  meters.create(frame.depth.size(), CV_32FC1);
   const kernels::DepthView depth = depthView(frame);
-  for (int y = 0; y < metres.rows; ++y) {
-    kernels::active().depthRow(depth, y, 0, metres.cols, min_depth, max_depth,
-                               metres.ptr<float>(y));
+  for (int y = 0; y < meters.rows; ++y) {
+    kernels::active().depthRow(depth, y, 0, meters.cols, min_depth, max_depth,
+                               meters.ptr<float>(y));
   }
 }
 
@@ -41,7 +41,7 @@ kernels::DepthView depthView(const Frame& frame) {
 
 float depthAt(const kernels::DepthView& depth, int x, int y) {
   const std::ptrdiff_t index = y * depth.stride + x;
-  const float z = depth.metres != nullptr ? depth.metres[index]
+  const float z = depth.meters != nullptr ? depth.meters[index]
                                           : static_cast<float>(depth.steps[index]) * depth.unit;
   return z > 0.0F && z < kernels::kMaxReading ? z : 0.0F;
 }
@@ -49,7 +49,7 @@ float depthAt(const kernels::DepthView& depth, int x, int y) {
 void DepthPyramid::build(const Frame& frame, int num_levels, double min_depth, double max_depth,
                          double edge_ratio) {
   levels_.resize(static_cast<std::size_t>(num_levels));
-  toMetres(frame, static_cast<float>(min_depth), static_cast<float>(max_depth), levels_[0]);
+  toMeters(frame, static_cast<float>(min_depth), static_cast<float>(max_depth), levels_[0]);
   for (std::size_t l = 1; l < levels_.size(); ++l) {
     reduce(levels_[l - 1], static_cast<float>(0.5 * edge_ratio), levels_[l]);
   }

@@ -9,12 +9,12 @@
 
 namespace mivo {
 
-/// Depth pyramid of a keyframe, CV_32FC1 in metres, 0 where there is no reading. Pixel (x, y) of a
+/// Depth pyramid of a keyframe, CV_32FC1 in meters, 0 where there is no reading. Pixel (x, y) of a
 /// level lies at (2x, 2y) of the finer one, as in ImagePyramid: a hole there stays a hole, and the
-/// mean is taken over those of its 3 x 3 neighbours that lie on the same surface.
+/// mean is taken over those of its 3 x 3 neighbors that lie on the same surface.
 class DepthPyramid {
  public:
-  /// Readings outside of [min_depth, max_depth] count as holes. Neighbours on the same surface
+  /// Readings outside of [min_depth, max_depth] count as holes. Neighbors on the same surface
   /// differ from the pixel by at most half the edge ratio.
   void build(const Frame& frame, int num_levels, double min_depth, double max_depth,
              double edge_ratio);

@@ -35,19 +35,19 @@ void FramePyramid::smooth(double saturation) {
 void FramePyramid::build(const Frame& frame, const Parameters& parameters) {
   frame_ = frame;
   num_levels_ = usableLevels(frame.image.cols, frame.image.rows, parameters.alignment.levels);
-  is_normalised_ = parameters.alignment.photometric_model == PhotometricModel::kLcn;
-  images_.build(frame.image, num_levels_ + (is_normalised_ ? kContrastLevels : 0));
-  if (is_normalised_) {
+  is_normalized_ = parameters.alignment.photometric_model == PhotometricModel::kLcn;
+  images_.build(frame.image, num_levels_ + (is_normalized_ ? kContrastLevels : 0));
+  if (is_normalized_) {
     contrast_.build(images_, num_levels_);
     smooth(parameters.alignment.saturation);
   }
-  normalised_.resize(static_cast<std::size_t>(num_levels_));
+  normalized_.resize(static_cast<std::size_t>(num_levels_));
   ranges_.resize(static_cast<std::size_t>(num_levels_));
   for (int l = 0; l < num_levels_; ++l) {
     if (!usesMutualInformation(parameters, l)) continue;
     const auto index = static_cast<std::size_t>(l);
-    if (is_normalised_) {
-      normaliseImage(images_.level(l), contrast_.level(l), normalised_[index]);
+    if (is_normalized_) {
+      normalizeImage(images_.level(l), contrast_.level(l), normalized_[index]);
       ranges_[index] = IntensityRange{};
     } else {
       ranges_[index] = intensityRange(images_.level(l), parameters.mi.mi_range_quantile);
@@ -56,13 +56,13 @@ void FramePyramid::build(const Frame& frame, const Parameters& parameters) {
 }
 
 const cv::Mat& FramePyramid::miImage(int level) const {
-  return is_normalised_ ? normalised_[static_cast<std::size_t>(level)] : images_.level(level);
+  return is_normalized_ ? normalized_[static_cast<std::size_t>(level)] : images_.level(level);
 }
 
 double FramePyramid::contrastInView() const {
   cv::Scalar mean;
   cv::Scalar deviation;
-  cv::meanStdDev(grey(num_levels_ - 1), mean, deviation);
+  cv::meanStdDev(gray(num_levels_ - 1), mean, deviation);
   return deviation[0];
 }
 

@@ -12,8 +12,8 @@
 
 namespace mivo {
 
-/// All data of a frame for the alignment, both as live frame and as keyframe: grey levels, local
-/// contrast and normalised images as required by the photometric model, and depth.
+/// All data of a frame for the alignment, both as live frame and as keyframe: gray levels, local
+/// contrast and normalized images as required by the photometric model, and depth.
 class FramePyramid {
  public:
   /// Rebuilds from a frame that fits the camera; buffers are reused. The frame's depth is
@@ -21,27 +21,27 @@ class FramePyramid {
   void build(const Frame& frame, const Parameters& parameters);
 
   int numLevels() const { return num_levels_; }
-  bool isNormalised() const { return is_normalised_; }
+  bool isNormalized() const { return is_normalized_; }
 
   /// The unmodified image of the frame, CV_8UC1.
   const cv::Mat& image() const { return images_.level(0); }
-  /// Image for SSD: CV_8UC1 on level 0, smoothed if isNormalised(); CV_32FC1 0..255 on coarser
+  /// Image for SSD: CV_8UC1 on level 0, smoothed if isNormalized(); CV_32FC1 0..255 on coarser
   /// levels.
-  const cv::Mat& grey(int level) const {
-    return level == 0 && is_normalised_ ? smoothed_ : images_.level(level);
+  const cv::Mat& gray(int level) const {
+    return level == 0 && is_normalized_ ? smoothed_ : images_.level(level);
   }
-  const ContrastMaps& contrast() const { return contrast_; }  ///< if isNormalised()
+  const ContrastMaps& contrast() const { return contrast_; }  ///< if isNormalized()
 
   /// Image for mutual information on a level that uses it: CV_32FC1 or CV_8UC1, 0..255.
   const cv::Mat& miImage(int level) const;
-  /// Its range of grey levels.
+  /// Its range of gray levels.
   const IntensityRange& miRange(int level) const {
     return ranges_[static_cast<std::size_t>(level)];
   }
 
   const Frame& frame() const { return frame_; }
 
-  /// Standard deviation of the grey levels of the coarsest level, where noise is averaged out.
+  /// Standard deviation of the gray levels of the coarsest level, where noise is averaged out.
   double contrastInView() const;
 
  private:
@@ -52,10 +52,10 @@ class FramePyramid {
   cv::Mat smoothed_;
   std::vector<float> scratch_;
   ContrastMaps contrast_;
-  std::vector<cv::Mat> normalised_;
+  std::vector<cv::Mat> normalized_;
   std::vector<IntensityRange> ranges_;
   int num_levels_ = 0;
-  bool is_normalised_ = false;
+  bool is_normalized_ = false;
 };
 
 /// Whether a level is aligned by mutual information, rather than by SSD (Algorithm 1).

@@ -9,7 +9,7 @@ namespace mivo {
 /// Number of levels to use for an image: `wanted`, or fewer so that the coarsest is not too small.
 int usableLevels(int width, int height, int wanted);
 
-/// Grey pyramid. Level 0 is the image, CV_8UC1; each further level, CV_32FC1 0..255, is reduced by
+/// Gray pyramid. Level 0 is the image, CV_8UC1; each further level, CV_32FC1 0..255, is reduced by
 /// the 5 x 5 Gaussian of cv::pyrDown, which keeps the even pixels (see Camera::atLevel).
 class ImagePyramid {
  public:

@@ -20,7 +20,7 @@ const Kernels& scalar() {
   static const Kernels kernels = {
       reference::warpPoints,
       reference::sampleIntensity,
-      reference::sampleNormalised,
+      reference::sampleNormalized,
       reference::residuals,
       reference::robustCost,
       reference::robustWeights,
@@ -35,7 +35,7 @@ const Kernels& scalar() {
       reference::reduce,
       reference::smooth,
       reference::contrastMap,
-      reference::normaliseImage,
+      reference::normalizeImage,
       reference::gradientRow,
       reference::maximaRow,
       reference::depthRow,

@@ -7,7 +7,7 @@
 namespace mivo {
 namespace kernels {
 
-/// Rows of grey levels, `stride` values apart: floats, or bytes where `data` is null.
+/// Rows of gray levels, `stride` values apart: floats, or bytes where `data` is null.
 struct ImageView {
   const float* data;
   const unsigned char* bytes;
@@ -21,21 +21,21 @@ struct ImageView {
 struct ContrastView {
   const float* pairs;
   std::ptrdiff_t stride;
-  float constant;  ///< grey levels, is added to the deviation
+  float constant;  ///< gray levels, is added to the deviation
 };
 
-/// Rows of readings: metres, or steps of `unit` metres where `metres` is null. What is not within
+/// Rows of readings: meters, or steps of `unit` meters where `meters` is null. What is not within
 /// (0, kMaxReading) is no reading.
 struct DepthView {
-  const float* metres;
+  const float* meters;
   const std::uint16_t* steps;
   std::ptrdiff_t stride;
   float unit;
 };
 constexpr float kMaxReading = 1e4F;
 
-/// See Kernels::normaliseImage, grey levels.
-struct NormaliseParameters {
+/// See Kernels::normalizeImage, gray levels.
+struct NormalizeParameters {
   float constant;
   float middle;
   float gain;

@@ -17,14 +17,14 @@
 namespace mivo {
 namespace kernels {
 
-/// Points as a structure of arrays, metres.
+/// Points as a structure of arrays, meters.
 struct PointsView {
   const float* x;
   const float* y;
   const float* z;
 };
 
-/// What a lens does to normalised coordinates, see Distortion. The first has no coefficients, the
+/// What a lens does to normalized coordinates, see Distortion. The first has no coefficients, the
 /// second no k4 to k6.
 enum class Lens { kNone, kPlumbBob, kRational, kEquidistant };
 
@@ -42,7 +42,7 @@ struct WarpParameters {
   float fx, fy, cx, cy;
   Lens lens;
   float k1, k2, p1, p2, k3, k4, k5, k6;
-  float max_squared_radius;  ///< of undistorted normalised coordinates
+  float max_squared_radius;  ///< of undistorted normalized coordinates
   float right, bottom;       ///< visible: 0 <= u < right, 0 <= v < bottom
 };
 
@@ -72,7 +72,7 @@ struct PixelsView {
   const float* u;
   const float* v;
   const float* z;           ///< depth, m
-  const float* gradient_u;  ///< grey levels per pixel
+  const float* gradient_u;  ///< gray levels per pixel
   const float* gradient_v;
   const float* curvature_uu;  ///< second derivatives; all three null unless asked for
   const float* curvature_uv;
@@ -105,7 +105,7 @@ struct DerivedPoints {
   }
 };
 
-/// The two or three rows of a depth image around one of them, metres, 0 for no reading.
+/// The two or three rows of a depth image around one of them, meters, 0 for no reading.
 struct DepthRows {
   const float* row[3];
   int count;
@@ -125,7 +125,7 @@ struct BinsView {
 };
 
 /// What the derivatives of mutual information sum up; see mi_derivatives.cpp for the symbols. In
-/// derivatives with respect to the increment, of intensities in grey levels.
+/// derivatives with respect to the increment, of intensities in gray levels.
 struct MiSums {
   double gradient[6];    ///< sum of g J
   double curvature[21];  ///< sum of s h J Jᵀ + g S, upper triangle row by row
@@ -157,12 +157,12 @@ struct Kernels {
   void (*sampleIntensity)(const ImageView& image, const float* u, const float* v,
                           const float* visible, std::size_t n, float* intensity);
 
-  /// Locally normalised intensity (I - mean) / (deviation + constant), see ContrastView; 0 where
+  /// Locally normalized intensity (I - mean) / (deviation + constant), see ContrastView; 0 where
   /// not visible. A point whose intensity reaches `saturation` is visible no longer: what is
-  /// clipped cannot be normalised. Returns the number of those hidden.
-  std::size_t (*sampleNormalised)(const ImageView& image, const ContrastView& contrast,
+  /// clipped cannot be normalized. Returns the number of those hidden.
+  std::size_t (*sampleNormalized)(const ImageView& image, const ContrastView& contrast,
                                   float saturation, const float* u, const float* v, float* visible,
-                                  std::size_t n, float* normalised);
+                                  std::size_t n, float* normalized);
 
   /// residual = contrast * live - reference, 0 where not visible.
   void (*residuals)(const float* live, const float* contrast, const float* reference,
@@ -216,7 +216,7 @@ struct Kernels {
 
   /// Adds dp_rl, without the scale s and 1/n, to rows[side * side * kRowFloats], and sets the sums.
   /// @param active 1 for a point that counts. @param log_ratio side * side: log(p_rl / p_r).
-  /// @param jacobian_rows n * kRowFloats. @param bin_scale s, bins per grey level.
+  /// @param jacobian_rows n * kRowFloats. @param bin_scale s, bins per gray level.
   void (*miDerivatives)(const BinsView& reference, const BinsView& live, const float* active,
                         const float* jacobian_rows, const float* const jacobian[6],
                         const float* const second_derivative[21], std::size_t n, int side,
@@ -239,25 +239,25 @@ struct Kernels {
   double (*contrastMap)(const ImageView& image, float* pairs, std::ptrdiff_t pairs_stride,
                         float* scratch);
 
-  /// A whole image normalised and scaled: clamp(middle + gain * (I - mean) / (deviation +
+  /// A whole image normalized and scaled: clamp(middle + gain * (I - mean) / (deviation +
   /// constant), 0, white). @param scratch imageScratch(width) floats.
-  void (*normaliseImage)(const ImageView& image, const ContrastView& contrast,
-                         const NormaliseParameters& parameters, float* normalised,
-                         std::ptrdiff_t normalised_stride, float* scratch);
+  void (*normalizeImage)(const ImageView& image, const ContrastView& contrast,
+                         const NormalizeParameters& parameters, float* normalized,
+                         std::ptrdiff_t normalized_stride, float* scratch);
 
   /// One row of squared gradients of central differences, for 1 <= x < n - 1; 0 at both ends.
   void (*gradientRow)(const ImageView& image, int y, float* squared);
 
   /// Where a row of squared gradients is at least `threshold`, positive, and maximal among the two
-  /// neighbours in the gradient's direction, rounded to one of four; of two equal neighbours the
+  /// neighbors in the gradient's direction, rounded to one of four; of two equal neighbors the
   /// later one counts. One byte per pixel, for 2 <= x < width - 2; 0 elsewhere. @param squared
   /// those of the rows y - 1, y, y + 1.
   void (*maximaRow)(const ImageView& image, int y, const float* const squared[3], float threshold,
                     std::uint8_t* maximal);
 
-  /// One row of readings in metres, from column `first` on; 0 for those outside of lowest..highest.
+  /// One row of readings in meters, from column `first` on; 0 for those outside of lowest..highest.
   void (*depthRow)(const DepthView& depth, int y, int first, int width, float lowest, float highest,
-                   float* metres);
+                   float* meters);
 
   /// One row of half the width, rounded up, from its column `first` on: 0 where the reading in the
   /// middle is none, otherwise the mean of those of the 3 x 3 readings around it that differ from

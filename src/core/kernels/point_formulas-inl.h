@@ -21,7 +21,7 @@ MIVO_INLINE Point3 cross(const Point3& a, const Point3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// Normalised coordinates behind a lens, and their derivative.
+/// Normalized coordinates behind a lens, and their derivative.
 struct Distorted {
   Number x, y;
   Matrix2 derivative;
@@ -207,7 +207,7 @@ MIVO_INLINE void secondDerivative(const Point3& X, const Matrix2& scale, Number 
   const Number square = inverse * inverse;
   const Number px = X.x * inverse;
   const Number py = X.y * inverse;
-  // With respect to normalised coordinates.
+  // With respect to normalized coordinates.
   const Number nx = scale.a * gu + scale.c * gv;
   const Number ny = scale.b * gu + scale.d * gv;
   const Number xx = scale.a * scale.a * image.uu + two * scale.a * scale.c * image.uv +

@@ -16,9 +16,9 @@ std::size_t warpPoints(const WarpParameters& parameters, const PointsView& point
                        float* u, float* v, float* visible);
 void sampleIntensity(const ImageView& image, const float* u, const float* v, const float* visible,
                      std::size_t n, float* intensity);
-std::size_t sampleNormalised(const ImageView& image, const ContrastView& contrast, float saturation,
+std::size_t sampleNormalized(const ImageView& image, const ContrastView& contrast, float saturation,
                              const float* u, const float* v, float* visible, std::size_t n,
-                             float* normalised);
+                             float* normalized);
 
 void residuals(const float* live, const float* contrast, const float* reference,
                const float* visible, std::size_t n, float* residual);
@@ -54,7 +54,7 @@ void keyframePoints(const WarpParameters& camera, const PixelsView& pixels, std:
                     const DerivedPoints& points, double pixel_motion[21]);
 
 void depthRow(const DepthView& depth, int y, int first, int width, float lowest, float highest,
-              float* metres);
+              float* meters);
 void reduceDepthRow(const DepthRows& fine, int width, float ratio, int first, float* coarse);
 void keepSmooth(const float* const depth[3], int width, float edge_ratio, int first,
                 std::uint8_t* candidates);
@@ -64,9 +64,9 @@ void smooth(const ImageView& image, std::uint8_t largest, std::uint8_t* smoothed
             std::ptrdiff_t smoothed_stride, float* scratch);
 double contrastMap(const ImageView& image, float* pairs, std::ptrdiff_t pairs_stride,
                    float* scratch);
-void normaliseImage(const ImageView& image, const ContrastView& contrast,
-                    const NormaliseParameters& parameters, float* normalised,
-                    std::ptrdiff_t normalised_stride, float* scratch);
+void normalizeImage(const ImageView& image, const ContrastView& contrast,
+                    const NormalizeParameters& parameters, float* normalized,
+                    std::ptrdiff_t normalized_stride, float* scratch);
 void gradientRow(const ImageView& image, int y, float* squared);
 void maximaRow(const ImageView& image, int y, const float* const squared[3], float threshold,
                std::uint8_t* maximal);

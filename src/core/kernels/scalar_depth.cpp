@@ -9,30 +9,30 @@ namespace kernels {
 namespace reference {
 
 void depthRow(const DepthView& depth, int y, int first, int width, float lowest, float highest,
-              float* metres) {
+              float* meters) {
   const std::ptrdiff_t row = y * depth.stride;
   for (int x = first; x < width; ++x) {
-    const float z = depth.metres != nullptr ? depth.metres[row + x]
+    const float z = depth.meters != nullptr ? depth.meters[row + x]
                                             : static_cast<float>(depth.steps[row + x]) * depth.unit;
-    metres[x] = z >= lowest && z <= highest ? z : 0.0F;
+    meters[x] = z >= lowest && z <= highest ? z : 0.0F;
   }
 }
 
 void reduceDepthRow(const DepthRows& fine, int width, float ratio, int first, float* coarse) {
   const int coarse_width = (width + 1) / 2;
   for (int x = first; x < coarse_width; ++x) {
-    const float centre = fine.row[fine.middle][2 * x];
+    const float center = fine.row[fine.middle][2 * x];
     float sum = 0.0F;
     float count = 0.0F;
-    for (int r = 0; r < fine.count && centre > 0.0F; ++r) {
+    for (int r = 0; r < fine.count && center > 0.0F; ++r) {
       for (int u = std::max(0, 2 * x - 1); u <= std::min(width - 1, 2 * x + 1); ++u) {
-        if (std::abs(fine.row[r][u] - centre) <= ratio * centre) {
+        if (std::abs(fine.row[r][u] - center) <= ratio * center) {
           sum += fine.row[r][u];
           count += 1.0F;
         }
       }
     }
-    coarse[x] = centre > 0.0F ? sum / count : 0.0F;
+    coarse[x] = center > 0.0F ? sum / count : 0.0F;
   }
 }
 

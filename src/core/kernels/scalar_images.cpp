@@ -133,9 +133,9 @@ double contrastMap(const ImageView& image, float* pairs, std::ptrdiff_t pairs_st
   return variances;
 }
 
-void normaliseImage(const ImageView& image, const ContrastView& contrast,
-                    const NormaliseParameters& p, float* normalised,
-                    std::ptrdiff_t normalised_stride, float* /*scratch*/) {
+void normalizeImage(const ImageView& image, const ContrastView& contrast,
+                    const NormalizeParameters& p, float* normalized,
+                    std::ptrdiff_t normalized_stride, float* /*scratch*/) {
   const auto between = [](float a, float b, int quarters) {
     return a + 0.25F * static_cast<float>(quarters) * (b - a);
   };
@@ -149,7 +149,7 @@ void normaliseImage(const ImageView& image, const ContrastView& contrast,
                        between(upper[left + 2 + i], lower[left + 2 + i], y % 4), x % 4);
       };
       const float value = (valueAt(image, x, y) - at(0)) / (at(1) + p.constant);
-      normalised[y * normalised_stride + x] =
+      normalized[y * normalized_stride + x] =
           std::min(std::max(p.middle + p.gain * value, 0.0F), p.white);
     }
   }

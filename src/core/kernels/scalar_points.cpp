@@ -115,12 +115,12 @@ void sampleIntensity(const ImageView& image, const float* u, const float* v, con
   }
 }
 
-std::size_t sampleNormalised(const ImageView& image, const ContrastView& contrast, float saturation,
+std::size_t sampleNormalized(const ImageView& image, const ContrastView& contrast, float saturation,
                              const float* u, const float* v, float* visible, std::size_t n,
-                             float* normalised) {
+                             float* normalized) {
   std::size_t hidden = 0;
   for (std::size_t i = 0; i < n; ++i) {
-    normalised[i] = 0.0F;
+    normalized[i] = 0.0F;
     if (visible[i] == 0.0F) continue;
     const float intensity = intensityAt(image, u[i], v[i]);
     if (intensity >= saturation) {
@@ -133,7 +133,7 @@ std::size_t sampleNormalised(const ImageView& image, const ContrastView& contras
     const float* lower = upper + contrast.stride;
     const float mean = bilinear(upper, lower, 2, corner);
     const float deviation = bilinear(upper + 1, lower + 1, 2, corner);
-    normalised[i] = (intensity - mean) / (deviation + contrast.constant);
+    normalized[i] = (intensity - mean) / (deviation + contrast.constant);
   }
   return hidden;
 }

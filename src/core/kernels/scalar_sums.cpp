@@ -8,7 +8,7 @@ namespace reference {
 namespace {
 
 float readingAt(const DepthView& depth, std::ptrdiff_t offset) {
-  const float z = depth.metres != nullptr ? depth.metres[offset]
+  const float z = depth.meters != nullptr ? depth.meters[offset]
                                           : static_cast<float>(depth.steps[offset]) * depth.unit;
   return z > 0.0F && z < kMaxReading ? z : 0.0F;  // NaN is no reading either
 }

@@ -48,7 +48,7 @@ const Kernels& table() {
   static const Kernels kernels = {
       warpPoints,
       sampleIntensity,
-      sampleNormalised,
+      sampleNormalized,
       residuals,
       robustCost,
       robustWeights,
@@ -63,7 +63,7 @@ const Kernels& table() {
       reduce,
       smooth,
       contrastMap,
-      normaliseImage,
+      normalizeImage,
       gradientRow,
       maximaRow,
       depthRow,

@@ -324,9 +324,9 @@ HWY_INLINE FloatVector intensities(const ImageView& image, std::ptrdiff_t offset
   return hn::ConvertTo(d, hn::PromoteTo(Integers(), hn::LoadU(d8, image.bytes + offset)));
 }
 
-inline void normaliseImage(const ImageView& image, const ContrastView& contrast,
-                           const NormaliseParameters& p, float* normalised,
-                           std::ptrdiff_t normalised_stride, float* scratch) {
+inline void normalizeImage(const ImageView& image, const ContrastView& contrast,
+                           const NormalizeParameters& p, float* normalized,
+                           std::ptrdiff_t normalized_stride, float* scratch) {
   const Floats d;
   const auto lanes = static_cast<int>(hn::Lanes(d));
   const int map_width = (image.width + 3) / 4 + 1;
@@ -338,7 +338,7 @@ inline void normaliseImage(const ImageView& image, const ContrastView& contrast,
   for (int y = 0; y < image.height; ++y) {
     mapDown(contrast, y, map_width, means, deviations);
     const std::ptrdiff_t row = y * image.stride;
-    float* out = normalised + y * normalised_stride;
+    float* out = normalized + y * normalized_stride;
     for (int x = 0; x < whole; x += 4 * lanes) {
       quartersAt(means + x / 4, mean);
       quartersAt(deviations + x / 4, deviation);
@@ -347,8 +347,8 @@ inline void normaliseImage(const ImageView& image, const ContrastView& contrast,
             hn::Sub(intensities(image, row + x + k), hn::Load(d, mean + k));
         const FloatVector value =
             hn::Div(difference, hn::Add(hn::Load(d, deviation + k), all(p.constant)));
-        const FloatVector grey = hn::MulAdd(all(p.gain), value, all(p.middle));
-        hn::StoreU(hn::Min(hn::Max(grey, all(0.0F)), all(p.white)), d, out + x + k);
+        const FloatVector gray = hn::MulAdd(all(p.gain), value, all(p.middle));
+        hn::StoreU(hn::Min(hn::Max(gray, all(0.0F)), all(p.white)), d, out + x + k);
       }
     }
     for (int x = whole; x < image.width; ++x) {
@@ -358,8 +358,8 @@ inline void normaliseImage(const ImageView& image, const ContrastView& contrast,
       const float local = deviations[m] + t * (deviations[m + 1] - deviations[m]);
       const float intensity =
           image.data != nullptr ? image.data[row + x] : static_cast<float>(image.bytes[row + x]);
-      const float grey = p.middle + p.gain * ((intensity - local_mean) / (local + p.constant));
-      out[x] = std::min(std::max(grey, 0.0F), p.white);
+      const float gray = p.middle + p.gain * ((intensity - local_mean) / (local + p.constant));
+      out[x] = std::min(std::max(gray, 0.0F), p.white);
     }
   }
 }

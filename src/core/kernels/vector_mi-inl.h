@@ -64,7 +64,7 @@ using Four = hn::FixedTag<float, 4>;
 
 // Products of 4 x 4 weights are summed in a block for each pair of bins: blocks are whole vectors
 // and never overlap, so that a sum just stored can be loaded again at once. Two tables by turns,
-// for neighbouring points often fall into the same block. At the end the blocks are spread to the
+// for neighboring points often fall into the same block. At the end the blocks are spread to the
 // bins.
 inline void jointHistogram(const BinsView& reference, const BinsView& live, const float* visible,
                            std::size_t n, int side, float* scratch, double* sums) {
@@ -165,7 +165,7 @@ HWY_INLINE void multiplyTile(const float* jacobian_rows, std::size_t begin, std:
 HWY_INLINE void spreadTile(const BinsView& reference, const BinsView& live, std::size_t begin,
                            std::size_t count, int side, const float* log_ratio, float* rows,
                            MiTile& tile) {
-  // The rows of the four live bins are neighbours: whole vectors of them are added to at once.
+  // The rows of the four live bins are neighbors: whole vectors of them are added to at once.
   constexpr std::size_t kMoments = 4 * kRowFloats;
   const Four four;
   const hn::CappedTag<float, 16> wide;

@@ -152,7 +152,7 @@ inline std::size_t warpPoints(const WarpParameters& p, const PointsView& points,
 }
 
 // Gathering loads are slow on many processors and missing on others: addresses are computed by
-// vectors, the few neighbours of each point fetched one point after the other into a tile, and
+// vectors, the few neighbors of each point fetched one point after the other into a tile, and
 // interpolated by vectors again.
 constexpr std::size_t kTile = 64;
 
@@ -180,7 +180,7 @@ HWY_INLINE void findCorners(const float* u, const float* v, float scale, std::pt
   }
 }
 
-/// The two neighbours of each point in a row of the image, side by side.
+/// The two neighbors of each point in a row of the image, side by side.
 struct alignas(64) FloatPairs {
   float upper[2 * kTile];
   float lower[2 * kTile];
@@ -283,9 +283,9 @@ inline void sampleIntensity(const ImageView& image, const float* u, const float*
                              intensity + whole);
 }
 
-inline std::size_t sampleNormalised(const ImageView& image, const ContrastView& contrast,
+inline std::size_t sampleNormalized(const ImageView& image, const ContrastView& contrast,
                                     float saturation, const float* u, const float* v,
-                                    float* visible, std::size_t n, float* normalised) {
+                                    float* visible, std::size_t n, float* normalized) {
   const Floats d;
   std::size_t hidden = 0;
   const std::size_t whole = wholeVectors(n);
@@ -294,7 +294,7 @@ inline std::size_t sampleNormalised(const ImageView& image, const ContrastView& 
   alignas(64) float lower[4 * kTile];
   for (std::size_t begin = 0; begin < whole; begin += kTile) {
     const std::size_t count = std::min(kTile, whole - begin);
-    sampleAny(image, u + begin, v + begin, count, normalised + begin);
+    sampleAny(image, u + begin, v + begin, count, normalized + begin);
     findCorners(u + begin, v + begin, 0.25F, contrast.stride, 2, count, corners);
     for (std::size_t i = 0; i < count; ++i) {
       const float* pair = contrast.pairs + corners.offset[i];
@@ -310,18 +310,18 @@ inline std::size_t sampleNormalised(const ImageView& image, const ContrastView& 
       const FloatVector mean = interpolated(interpolated(m0, m1, du), interpolated(m2, m3, du), dv);
       const FloatVector deviation =
           interpolated(interpolated(s0, s1, du), interpolated(s2, s3, du), dv);
-      const FloatVector intensity = hn::LoadU(d, normalised + begin + i);
+      const FloatVector intensity = hn::LoadU(d, normalized + begin + i);
       const FloatVector value =
           hn::Div(hn::Sub(intensity, mean), hn::Add(deviation, all(contrast.constant)));
       const FloatMask in_view = visibleAt(visible, begin + i);
       const FloatMask is_kept = hn::And(in_view, hn::Lt(intensity, all(saturation)));
       hidden += hn::CountTrue(d, in_view) - hn::CountTrue(d, is_kept);
       hn::StoreU(hn::IfThenElseZero(is_kept, all(1.0F)), d, visible + begin + i);
-      hn::StoreU(hn::IfThenElseZero(is_kept, value), d, normalised + begin + i);
+      hn::StoreU(hn::IfThenElseZero(is_kept, value), d, normalized + begin + i);
     }
   }
-  return hidden + reference::sampleNormalised(image, contrast, saturation, u + whole, v + whole,
-                                              visible + whole, n - whole, normalised + whole);
+  return hidden + reference::sampleNormalized(image, contrast, saturation, u + whole, v + whole,
+                                              visible + whole, n - whole, normalized + whole);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -276,8 +276,8 @@ inline void sumPairs(const float* a, const float* b, const float* divisor, const
 /// Readings at the pixels nearest to the points of one tile.
 HWY_INLINE void fetchReadings(const DepthView& depth, const std::int32_t* offset, std::size_t n,
                               float* reading) {
-  if (depth.metres != nullptr) {
-    for (std::size_t i = 0; i < n; ++i) reading[i] = depth.metres[offset[i]];
+  if (depth.meters != nullptr) {
+    for (std::size_t i = 0; i < n; ++i) reading[i] = depth.meters[offset[i]];
   } else {
     for (std::size_t i = 0; i < n; ++i) {
       reading[i] = static_cast<float>(depth.steps[offset[i]]) * depth.unit;

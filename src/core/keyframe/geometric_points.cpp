@@ -35,7 +35,7 @@ struct Patch {
 };
 
 struct Plane {
-  double centre;  // 1/z at the pixel: 1/z is linear in the pixel for a plane
+  double center;  // 1/z at the pixel: 1/z is linear in the pixel for a plane
   double slope_u;
   double slope_v;
 };
@@ -130,11 +130,11 @@ bool fitPlane(const ColumnSums& columns, int x, Plane& plane) {
     squares += columns.squares[i];
   }
   plane = {sum / kPatchSize, sum_u / kSquares, sum_v / kSquares};
-  const double rest = squares - kPatchSize * plane.centre * plane.centre -
+  const double rest = squares - kPatchSize * plane.center * plane.center -
                       kSquares * (plane.slope_u * plane.slope_u + plane.slope_v * plane.slope_v);
   const auto deviation =
-      static_cast<double>(depthDeviation(static_cast<float>(1.0 / plane.centre)));
-  const double bound = kPlanar * deviation * plane.centre * plane.centre;  // of 1/z
+      static_cast<double>(depthDeviation(static_cast<float>(1.0 / plane.center)));
+  const double bound = kPlanar * deviation * plane.center * plane.center;  // of 1/z
   return rest <= kPatchSize * bound * bound;                               // false for NaN
 }
 
@@ -142,11 +142,11 @@ bool fitPlane(const ColumnSums& columns, int x, Plane& plane) {
 /// pixel without a ray.
 bool toPatch(const Plane& plane, const Eigen::Vector3d& ray, const Eigen::Matrix2d& scale,
              Patch& patch) {
-  // 1/z = centre + g . (m - m0) in normalised coordinates m, hence g . (X, Y) + c Z = 1.
+  // 1/z = center + g . (m - m0) in normalized coordinates m, hence g . (X, Y) + c Z = 1.
   const Eigen::Vector2d g = scale.transpose() * Eigen::Vector2d(plane.slope_u, plane.slope_v);
   const Eigen::Vector3d normal =
-      Eigen::Vector3d(g.x(), g.y(), plane.centre - g.dot(ray.head<2>())).normalized();
-  patch.point = ray / plane.centre;
+      Eigen::Vector3d(g.x(), g.y(), plane.center - g.dot(ray.head<2>())).normalized();
+  patch.point = ray / plane.center;
   patch.normal = normal;
   return std::abs(normal.dot(ray)) > kMinCosine * ray.norm();
 }

@@ -10,7 +10,7 @@
 
 namespace mivo {
 
-/// Standard deviation of one reading of a structured-light sensor, m: its disparity is quantised,
+/// Standard deviation of one reading of a structured-light sensor, m: its disparity is quantized,
 /// so it grows with the square of the depth.
 inline float depthDeviation(float z) {
   return 0.0025F * z * z + 0.0007F;
@@ -28,7 +28,7 @@ struct GeometricPoints {
 
 /// Fits planes to patches of a depth image and picks points of them. The first `first_part` points
 /// alone cover all directions, too, and are in reading order.
-/// @param depth CV_32FC1 metres, 0 for none; @param camera and @param rows of the same level.
+/// @param depth CV_32FC1 meters, 0 for none; @param camera and @param rows of the same level.
 void makeGeometricPoints(const cv::Mat& depth, const Camera& camera, const RowMotion& rows,
                          int first_part, int max_points, GeometricPoints& points);
 

@@ -58,7 +58,7 @@ void leaveOutAbove(const cv::Mat& image, Value limit, ReferencePoints& points) {
   keepPixels(isBelow, points);
 }
 
-/// Pixels with a possibly clipped neighbour: their gradient is not that of the scene.
+/// Pixels with a possibly clipped neighbor: their gradient is not that of the scene.
 void leaveOutSaturated(const cv::Mat& image, double saturation, ReferencePoints& points) {
   if (image.type() == CV_8UC1) {
     // For integers, the limit is rounded up.
@@ -103,11 +103,11 @@ void Keyframe::choosePoints(const FramePyramid& frame, const Vector6& twist_per_
   for (int l = 0; l < num_levels; ++l) {
     ReferencePoints& points = levels_[static_cast<std::size_t>(l)].points;
     const bool is_coarsest = l + 1 == num_levels && num_levels > 1;
-    const bool is_finest = l == 0 && frame.isNormalised() && !usesMutualInformation(parameters, l);
-    selectPoints(frame.grey(l), depth_pyramid_.level(l), is_coarsest,
+    const bool is_finest = l == 0 && frame.isNormalized() && !usesMutualInformation(parameters, l);
+    selectPoints(frame.gray(l), depth_pyramid_.level(l), is_coarsest,
                  is_finest ? parameters.points.finest_point_fraction : 0.0, parameters, points);
-    if (frame.isNormalised())
-      leaveOutSaturated(frame.grey(l), parameters.alignment.saturation, points);
+    if (frame.isNormalized())
+      leaveOutSaturated(frame.gray(l), parameters.alignment.saturation, points);
   }
 }
 
@@ -130,11 +130,11 @@ void Keyframe::finish(const FramePyramid& frame, const Camera& camera,
   for (int l = 0; l < numLevels(); ++l) {
     KeyframeLevel& level = levels_[static_cast<std::size_t>(l)];
     const bool uses_mi = usesMutualInformation(parameters, l);
-    // Mutual information compares whole images, normalised beforehand; SSD normalises at its
+    // Mutual information compares whole images, normalized beforehand; SSD normalizes at its
     // points.
     const ReferenceImage image{
-        uses_mi ? frame.miImage(l) : frame.grey(l),
-        !uses_mi && frame.isNormalised() ? &frame.contrast().level(l) : nullptr};
+        uses_mi ? frame.miImage(l) : frame.gray(l),
+        !uses_mi && frame.isNormalized() ? &frame.contrast().level(l) : nullptr};
     const Camera level_camera = camera.atLevel(l);
     level.points.level = l;
     leaveOutOfLens(level_camera, level.points);

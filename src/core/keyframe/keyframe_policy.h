@@ -10,7 +10,7 @@ namespace mivo {
 /// Quality of the first alignment after the keyframe was created, the reference for later frames.
 struct KeyframeQuality {
   double mutual_information = 0.0;  ///< nats; 0: not known
-  double residual_scale = 0.0;      ///< grey levels; 0: not known
+  double residual_scale = 0.0;      ///< gray levels; 0: not known
   double correlation = 0.0;         ///< 0: not known
 };
 

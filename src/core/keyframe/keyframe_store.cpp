@@ -33,7 +33,7 @@ void KeyframeStore::clear() {
 
 void KeyframeStore::transform(const Eigen::Isometry3d& T_new_old) {
   for (auto& keyframe : keyframes_) {
-    keyframe->T_odom_keyframe = orthonormalised(T_new_old * keyframe->T_odom_keyframe);
+    keyframe->T_odom_keyframe = orthonormalized(T_new_old * keyframe->T_odom_keyframe);
   }
 }
 

@@ -121,7 +121,7 @@ void findCandidates(const cv::Mat& image, const cv::Mat& depth, const SelectionL
   }
   work.num_candidates = 0;
   const auto rowOf = [&](int y) { return work.squared[y % 3].data(); };
-  // The second derivatives of a point need its eight neighbours, the maximum test their gradients.
+  // The second derivatives of a point need its eight neighbors, the maximum test their gradients.
   for (int y = 1; y + 1 < image.rows; ++y) {
     kernels.gradientRow(pixels, y, rowOf(y));
     const int middle = y - 1;

@@ -16,7 +16,7 @@ struct SelectionLimits {
   int num_points;      ///< to choose at most
   int num_leading;     ///< number of them that come first: those that a smaller num_points would
                        ///< select
-  float min_gradient;  ///< grey levels per pixel
+  float min_gradient;  ///< gray levels per pixel
   int cell_size;       ///< pixels; the points are spread evenly over cells of this side
   float depth_edge_ratio;  ///< a point's 3 x 3 readings span at most this share of its depth
 };
@@ -25,7 +25,7 @@ struct SelectionLimits {
 /// direction, on a smooth surface with depth, and distributed over the image: each cell contributes
 /// its strongest pixels. First the leading ones in row-major order, then the others. Returns the
 /// number of leading ones.
-/// @param image CV_32FC1 or CV_8UC1 grey, @param depth CV_32FC1 metres (0: none), same size
+/// @param image CV_32FC1 or CV_8UC1 gray, @param depth CV_32FC1 meters (0: none), same size
 std::size_t selectSalient(const cv::Mat& image, const cv::Mat& depth, const SelectionLimits& limits,
                           std::vector<Pixel>& pixels);
 

@@ -51,11 +51,11 @@ void sampleRaw(const cv::Mat& image, const std::vector<Pixel>& pixels, std::size
   }
 }
 
-void sampleNormalised(const ReferenceImage& image, const std::vector<Pixel>& pixels,
+void sampleNormalized(const ReferenceImage& image, const std::vector<Pixel>& pixels,
                       std::size_t places, Workspace& work) {
   const kernels::Kernels& kernels = kernels::active();
-  const int last_column = image.grey.cols - 1;
-  const int last_row = image.grey.rows - 1;
+  const int last_column = image.gray.cols - 1;
+  const int last_row = image.gray.rows - 1;
   for (std::size_t k = 0; k < places; ++k) {
     bool is_all_inside = true;
     for (std::size_t i = 0; i < pixels.size(); ++i) {
@@ -68,13 +68,13 @@ void sampleNormalised(const ReferenceImage& image, const std::vector<Pixel>& pix
       work.is_inside[i] = is_inside ? 1.0F : 0.0F;
       is_all_inside = is_all_inside && is_inside;
     }
-    kernels.sampleNormalised(view(image.grey), view(*image.contrast), kNeverSaturated,
+    kernels.sampleNormalized(view(image.gray), view(*image.contrast), kNeverSaturated,
                              work.place_u.data(), work.place_v.data(), work.is_inside.data(),
                              pixels.size(), work.value[k].data());
     if (is_all_inside) continue;
     for (std::size_t i = 0; i < pixels.size(); ++i) {
       if (work.is_inside[i] != 0.0F) continue;
-      work.value[k][i] = normalisedIntensity(image.grey, *image.contrast,
+      work.value[k][i] = normalizedIntensity(image.gray, *image.contrast,
                                              pixels[i].x + kColumnOf[k], pixels[i].y + kRowOf[k]);
     }
   }
@@ -87,11 +87,11 @@ void differentiate(const ReferenceImage& image, bool with_second_derivative,
   const bool smooths_across = image.contrast != nullptr;
   const std::size_t places = smooths_across || with_second_derivative ? kPlaces : kPlacesOfGradient;
   if (image.contrast != nullptr) {
-    sampleNormalised(image, pixels, places, work);
-  } else if (image.grey.type() == CV_8UC1) {
-    sampleRaw<unsigned char>(image.grey, pixels, places, work);
+    sampleNormalized(image, pixels, places, work);
+  } else if (image.gray.type() == CV_8UC1) {
+    sampleRaw<unsigned char>(image.gray, pixels, places, work);
   } else {
-    sampleRaw<float>(image.grey, pixels, places, work);
+    sampleRaw<float>(image.gray, pixels, places, work);
   }
   const auto& value = work.value;
   for (std::size_t i = 0; i < pixels.size(); ++i) {
@@ -135,7 +135,7 @@ void takeDepthInTime(const ReferenceDepth& depth, const Camera& camera, const Ve
     const float u = std::round(work.place_u[i]);
     const float v = std::round(work.place_v[i]);
     const auto reading =
-        static_cast<double>(depth.metres.ptr<float>(static_cast<int>(v))[static_cast<int>(u)]);
+        static_cast<double>(depth.meters.ptr<float>(static_cast<int>(v))[static_cast<int>(u)]);
     if (!(reading > 0.0)) continue;
     // The ray of a pixel half a pixel away at most: the lens bends both alike.
     const Eigen::Vector3d point =
@@ -210,7 +210,7 @@ void makeReferencePoints(const ReferenceImage& image, const ReferenceDepth& dept
   for (std::size_t i = 0; i < n; ++i) {
     work->u[i] = static_cast<float>(pixels[i].x);
     work->v[i] = static_cast<float>(pixels[i].y);
-    work->z[i] = depth.metres.ptr<float>(pixels[i].y)[pixels[i].x];
+    work->z[i] = depth.meters.ptr<float>(pixels[i].y)[pixels[i].x];
   }
   differentiate(image, with_second_derivative, points, *work);
   const auto deriveWith = [&](const RowMotion& motion) {

@@ -25,15 +25,15 @@ struct ReferencePoints {
   /// Number of leading points, which come first: the strongest of each cell. They perform the
   /// iterations.
   std::size_t num_leading = 0;
-  /// Metres, optical frame of the keyframe at the time of its middle row.
+  /// Meters, optical frame of the keyframe at the time of its middle row.
   std::vector<float> x, y, z;
-  /// What the live image is compared with, grey levels: the intensity; with local contrast
-  /// normalisation the intensity minus its local mean.
+  /// What the live image is compared with, gray levels: the intensity; with local contrast
+  /// normalization the intensity minus its local mean.
   std::vector<float> intensity;
-  /// Grey levels per unit of the live sample: 1; with local contrast normalisation the local
+  /// Gray levels per unit of the live sample: 1; with local contrast normalization the local
   /// deviation, so that each point has the weight that its noise justifies.
   std::vector<float> contrast;
-  std::array<std::vector<float>, 6> jacobian;  ///< d intensity / d d, grey levels per m and per rad
+  std::array<std::vector<float>, 6> jacobian;  ///< d intensity / d d, gray levels per m and per rad
   /// Second derivative of the intensity, upper triangle row by row; empty unless asked for.
   std::array<std::vector<float>, kSymmetric6> second_derivative;
   float median_depth = 1.0F;  ///< m; 1 when there are no points
@@ -49,13 +49,13 @@ struct ReferencePoints {
 
 /// The image that points are created from.
 struct ReferenceImage {
-  const cv::Mat& grey;                    ///< CV_32FC1, of the level
-  const ContrastMap* contrast = nullptr;  ///< to normalise it by; null: taken as it is
+  const cv::Mat& gray;                    ///< CV_32FC1, of the level
+  const ContrastMap* contrast = nullptr;  ///< to normalize it by; null: taken as it is
 };
 
 /// The depth of the points.
 struct ReferenceDepth {
-  const cv::Mat& metres;  ///< CV_32FC1, of the level; 0 for none
+  const cv::Mat& meters;  ///< CV_32FC1, of the level; 0 for none
   double offset = 0.0;    ///< frame periods by which a row of it is read later than of the image
 };
 

@@ -5,12 +5,12 @@
 
 #include "core/alignment/pose_covariance.h"
 #include "core/keyframe/keyframe_policy.h"
-#include "core/odometry/judgement.h"
+#include "core/odometry/judgment.h"
 
 namespace mivo {
 namespace {
 
-// Grey levels: with less contrast no new segment is started.
+// Gray levels: with less contrast no new segment is started.
 constexpr double kMinContrast = 1.0;
 // Factor on lost_frames for dark images: the light may return.
 constexpr int kLostPatienceInTheDark = 4;
@@ -48,7 +48,7 @@ void follow(const SearchInput& input, const Prediction& prediction, const Sight&
             OdometryState& state, TrackingResult& result) {
   const PosedKeyframe& keyframe = input.keyframes.at(sight.keyframe);
   const Alignment& alignment = sight.alignment;
-  state.T_odom_camera = orthonormalised(keyframe.T_odom_keyframe * alignment.T_live_ref.inverse());
+  state.T_odom_camera = orthonormalized(keyframe.T_odom_keyframe * alignment.T_live_ref.inverse());
   state.pose_stamp = prediction.stamp;
   state.lost_in_a_row = 0;
   state.segment = keyframe.segment;
@@ -75,7 +75,7 @@ Decision decideFirst(const OdometryState& state, const Prediction& prediction,
   decision.outcome = {state, result};
   TrackingResult& without = decision.outcome.result;
   without.T_odom_camera = prediction.T_odom_camera;
-  without.state = TrackingState::kInitialising;
+  without.state = TrackingState::kInitializing;
   without.reason = TrackingReason::kTooFewPoints;
   without.covariance = without.alignment_covariance = guessCovariance();
 

@@ -10,7 +10,7 @@
 namespace mivo {
 namespace {
 
-// So many points of an image are worth one independent pair of grey levels: neighbours share what
+// So many points of an image are worth one independent pair of gray levels: neighbors share what
 // light, blur and depth err.
 constexpr double kPointsPerPair = 64.0;
 // Correlations beyond this say nothing more.

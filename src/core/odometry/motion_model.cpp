@@ -60,7 +60,7 @@ void MotionModel::stop() {
 
 void MotionModel::transform(const Eigen::Isometry3d& T_new_old) {
   for (MeasuredPose* pose : {&last_, &seen_}) {
-    pose->T_odom_camera = orthonormalised(T_new_old * pose->T_odom_camera);
+    pose->T_odom_camera = orthonormalized(T_new_old * pose->T_odom_camera);
   }
 }
 
@@ -92,7 +92,7 @@ Eigen::Isometry3d MotionModel::predict(double stamp, const Eigen::Isometry3d& la
                                        const FrameClock& clock,
                                        const MotionParameters& parameters) const {
   if (parameters.motion_model == MotionModelKind::kConstantPose || !has_velocity_) return last;
-  return orthonormalised(last_.T_odom_camera * expSe3(motionUntil(stamp, clock, parameters)));
+  return orthonormalized(last_.T_odom_camera * expSe3(motionUntil(stamp, clock, parameters)));
 }
 
 /// Covariance of the drift during so many seconds without observation: the velocity remains known

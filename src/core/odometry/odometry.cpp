@@ -195,7 +195,7 @@ void Odometry::Implementation::reset(const Eigen::Isometry3d& T_odom_camera) {
   fresh.shutter = state_.shutter;
   fresh.shutter_times = state_.shutter_times;
   if (!keyframes_.isEmpty()) fresh.segment = fresh.num_segments++;
-  fresh.T_odom_camera = orthonormalised(T_odom_camera);
+  fresh.T_odom_camera = orthonormalized(T_odom_camera);
   state_ = fresh;
   keyframes_.clear();
   keyframe_is_unfinished_ = false;
@@ -207,11 +207,11 @@ void Odometry::Implementation::reset(const Eigen::Isometry3d& T_odom_camera) {
 
 void Odometry::Implementation::setPose(const Eigen::Isometry3d& T_odom_camera) {
   const Eigen::Isometry3d T_new_old =
-      orthonormalised(T_odom_camera) * result_.T_odom_camera.inverse();
+      orthonormalized(T_odom_camera) * result_.T_odom_camera.inverse();
   keyframes_.transform(T_new_old);
-  state_.T_odom_camera = orthonormalised(T_new_old * state_.T_odom_camera);
+  state_.T_odom_camera = orthonormalized(T_new_old * state_.T_odom_camera);
   state_.motion.transform(T_new_old);
-  result_.T_odom_camera = orthonormalised(T_odom_camera);
+  result_.T_odom_camera = orthonormalized(T_odom_camera);
 }
 
 Odometry::Odometry(const Camera& camera, const Parameters& parameters)

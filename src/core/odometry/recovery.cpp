@@ -23,7 +23,7 @@ RecoveryAttempts recoveryAttempts(const KeyframeStore& keyframes,
   const Vector6 motion = logSe3(T_odom_last.inverse() * T_odom_predicted);
   if (motion.norm() > kStandingStill) {
     attempts.add({0, T_odom_predicted});
-    attempts.add({0, orthonormalised(T_odom_last * expSe3(0.5 * motion))});
+    attempts.add({0, orthonormalized(T_odom_last * expSe3(0.5 * motion))});
   }
   attempts.add({0, T_odom_last, false, 1});
   const std::size_t older = keyframes.size() - 1;

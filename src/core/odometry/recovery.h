@@ -9,7 +9,7 @@
 
 namespace mivo {
 
-/// One attempt to relocalise a lost camera: a keyframe of the store and a start.
+/// One attempt to relocalize a lost camera: a keyframe of the store and a start.
 struct RecoveryAttempt {
   std::size_t keyframe = 0;
   Eigen::Isometry3d T_odom_camera = Eigen::Isometry3d::Identity();

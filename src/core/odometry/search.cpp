@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "core/odometry/hypotheses.h"
-#include "core/odometry/judgement.h"
+#include "core/odometry/judgment.h"
 #include "core/odometry/recovery.h"
 
 namespace mivo {

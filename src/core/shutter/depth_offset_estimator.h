@@ -6,7 +6,7 @@
 
 namespace mivo {
 
-/// Measurement of the time from colour to depth by one frame, in frame periods: correction and
+/// Measurement of the time from color to depth by one frame, in frame periods: correction and
 /// inverse variance.
 struct DepthOffsetMeasurement {
   double correction = 0.0;

@@ -6,7 +6,7 @@ namespace {
 
 TermModel modelOf(CostTerm& term) {
   TermModel result;
-  result.model = term.linearise(kScaleIsKept);
+  result.model = term.linearize(kScaleIsKept);
   if (term.gradientCovariance(result.gradient_covariance) < kFewestBlocks) {
     result.gradient_covariance = result.model.hessian;
   }

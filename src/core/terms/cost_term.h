@@ -10,7 +10,7 @@
 namespace mivo {
 
 /// A cost around a pose as a function of the increment d that warps the keyframe:
-/// cost + gradient . d + dᵀ hessian d / 2. In nats, so that terms add up, and to be minimised.
+/// cost + gradient . d + dᵀ hessian d / 2. In nats, so that terms add up, and to be minimized.
 struct QuadraticModel {
   double cost = 0.0;
   Vector6 gradient = Vector6::Zero();
@@ -19,7 +19,7 @@ struct QuadraticModel {
 
 /// Minimum number of image blocks for an estimate of their correlated errors.
 constexpr int kFewestBlocks = 15;
-/// As iteration of linearise(): keep the scale of the residuals.
+/// As iteration of linearize(): keep the scale of the residuals.
 constexpr int kScaleIsKept = 1 << 20;
 
 /// A cost of aligning the live frame with the keyframe at a pose, on one level.
@@ -33,7 +33,7 @@ class CostTerm {
 
   /// Model around the pose of the last evaluate(). `iteration` counts from 0 on a level. A term may
   /// first update its scale; later costs are comparable with the cost returned here.
-  virtual QuadraticModel linearise(int iteration) = 0;
+  virtual QuadraticModel linearize(int iteration) = 0;
 
   /// Covariance of the gradient at the pose of the last evaluate(), estimated from blocks of the
   /// image (see RobustSum::scoreCovariance). Returns the number of blocks; 0: not known, use the

@@ -64,10 +64,10 @@ Agreement GeometricTerm::agreement(std::size_t most_points) const {
                         T_live_ref_, most_points);
 }
 
-QuadraticModel GeometricTerm::linearise(int iteration) {
+QuadraticModel GeometricTerm::linearize(int iteration) {
   std::array<const float*, 6> jacobian;
   for (std::size_t k = 0; k < 6; ++k) jacobian[k] = (*jacobian_)[k].data();
-  return sum_.linearise(*residuals_, jacobian, iteration);
+  return sum_.linearize(*residuals_, jacobian, iteration);
 }
 
 }  // namespace mivo

@@ -26,7 +26,7 @@ class GeometricTerm : public CostTerm {
                 const Warp& warp, const Parameters& parameters);
 
   double evaluate(const Eigen::Isometry3d& T_live_ref) override;
-  QuadraticModel linearise(int iteration) override;
+  QuadraticModel linearize(int iteration) override;
   int gradientCovariance(Matrix6& covariance) const override;
   Agreement agreement(std::size_t most_points) const override;
 

@@ -15,7 +15,7 @@ namespace {
 constexpr float kNeverSaturated = 1e9F;
 
 /// Live pixels of some points, moved by whole pixels, and what the image shows there.
-struct Neighbour {
+struct Neighbor {
   std::vector<float> u, v, visible, value;
 };
 
@@ -26,11 +26,11 @@ constexpr float kRowOf[kPlaces] = {0, 0, -1, 1, -1, -1, 1, 1};
 
 struct Workspace {
   std::vector<std::size_t> index;
-  std::array<Neighbour, kPlaces> around;
+  std::array<Neighbor, kPlaces> around;
 
   bool isSeen(std::size_t k) const {
     return std::all_of(around.begin(), around.end(),
-                       [k](const Neighbour& place) { return place.visible[k] != 0.0F; });
+                       [k](const Neighbor& place) { return place.visible[k] != 0.0F; });
   }
 
   /// Central differences, smoothed across by (1, 4, 1) / 6: of an oblique edge they point across
@@ -49,31 +49,30 @@ struct Workspace {
 };
 
 void sample(const LiveImage& image, const Workspace& work, const LiveSamples& samples, float du,
-            float dv, Neighbour& neighbour) {
+            float dv, Neighbor& neighbor) {
   const std::size_t n = work.index.size();
-  for (std::vector<float>* array :
-       {&neighbour.u, &neighbour.v, &neighbour.visible, &neighbour.value}) {
+  for (std::vector<float>* array : {&neighbor.u, &neighbor.v, &neighbor.visible, &neighbor.value}) {
     array->reserve(work.index.capacity());  // how many are seen differs from frame to frame
     array->assign(n, 0.0F);
   }
-  const auto right = static_cast<float>(image.grey.cols - 1);
-  const auto bottom = static_cast<float>(image.grey.rows - 1);
+  const auto right = static_cast<float>(image.gray.cols - 1);
+  const auto bottom = static_cast<float>(image.gray.rows - 1);
   for (std::size_t i = 0; i < n; ++i) {
     const float u = samples.u[work.index[i]] + du;
     const float v = samples.v[work.index[i]] + dv;
     if (!(u >= 0.0F && u < right && v >= 0.0F && v < bottom)) continue;
-    neighbour.u[i] = u;
-    neighbour.v[i] = v;
-    neighbour.visible[i] = 1.0F;
+    neighbor.u[i] = u;
+    neighbor.v[i] = v;
+    neighbor.visible[i] = 1.0F;
   }
   const kernels::Kernels& kernels = kernels::active();
   if (image.contrast != nullptr) {
-    kernels.sampleNormalised(view(image.grey), view(*image.contrast), kNeverSaturated,
-                             neighbour.u.data(), neighbour.v.data(), neighbour.visible.data(), n,
-                             neighbour.value.data());
+    kernels.sampleNormalized(view(image.gray), view(*image.contrast), kNeverSaturated,
+                             neighbor.u.data(), neighbor.v.data(), neighbor.visible.data(), n,
+                             neighbor.value.data());
   } else {
-    kernels.sampleIntensity(view(image.grey), neighbour.u.data(), neighbour.v.data(),
-                            neighbour.visible.data(), n, neighbour.value.data());
+    kernels.sampleIntensity(view(image.gray), neighbor.u.data(), neighbor.v.data(),
+                            neighbor.visible.data(), n, neighbor.value.data());
   }
 }
 

@@ -12,8 +12,8 @@ namespace mivo {
 
 /// The live image that points are compared with.
 struct LiveImage {
-  const cv::Mat& grey;          ///< CV_32FC1 or CV_8UC1, of the points' level
-  const ContrastMap* contrast;  ///< to normalise it by; null: taken as it is
+  const cv::Mat& gray;          ///< CV_32FC1 or CV_8UC1, of the points' level
+  const ContrastMap* contrast;  ///< to normalize it by; null: taken as it is
 };
 
 /// Agreement of the intensity gradients of at most so many points, spread over all of them.

@@ -10,8 +10,8 @@
 namespace mivo {
 namespace {
 
-constexpr int kGreyLevels = 256;
-// high >= low + this, grey levels: avoids division by zero for a uniform image.
+constexpr int kGrayLevels = 256;
+// high >= low + this, gray levels: avoids division by zero for a uniform image.
 constexpr float kMinRange = 1.0F;
 // Keeps the topmost position inside of the last interval between two bins.
 constexpr float kBelowTop = 1e-3F;
@@ -19,20 +19,20 @@ constexpr float kBelowTop = 1e-3F;
 }  // namespace
 
 IntensityRange intensityRange(const cv::Mat& image, double quantile) {
-  std::array<int, kGreyLevels> counts{};
+  std::array<int, kGrayLevels> counts{};
   for (int y = 0; y < image.rows; ++y) {
     for (int x = 0; x < image.cols; ++x) {
       const int level = static_cast<int>(intensityAt(image, x, y) + 0.5F);
-      ++counts[static_cast<std::size_t>(std::min(std::max(level, 0), kGreyLevels - 1))];
+      ++counts[static_cast<std::size_t>(std::min(std::max(level, 0), kGrayLevels - 1))];
     }
   }
   const double limit = quantile * static_cast<double>(image.total());
   int low = 0;
-  for (double sum = counts[0]; sum <= limit && low < kGreyLevels - 1;) {
+  for (double sum = counts[0]; sum <= limit && low < kGrayLevels - 1;) {
     sum += counts[static_cast<std::size_t>(++low)];
   }
-  int high = kGreyLevels - 1;
-  for (double sum = counts[kGreyLevels - 1]; sum <= limit && high > 0;) {
+  int high = kGrayLevels - 1;
+  for (double sum = counts[kGrayLevels - 1]; sum <= limit && high > 0;) {
     sum += counts[static_cast<std::size_t>(--high)];
   }
   IntensityRange range{static_cast<float>(low), static_cast<float>(high)};
@@ -86,7 +86,7 @@ void JointHistogram::add(const kernels::BinsView& reference, const kernels::Bins
                                    joint_.data());
 }
 
-void JointHistogram::normalise(std::size_t num_pairs) {
+void JointHistogram::normalize(std::size_t num_pairs) {
   std::fill(reference_.begin(), reference_.end(), 0.0);
   std::fill(live_.begin(), live_.end(), 0.0);
   mutual_information_ = 0.0;

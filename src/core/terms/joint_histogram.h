@@ -10,13 +10,13 @@
 
 namespace mivo {
 
-/// Range of grey levels of the bins: `low` is the centre of the first bin, `high` that of the last.
+/// Range of gray levels of the bins: `low` is the center of the first bin, `high` that of the last.
 struct IntensityRange {
   float low = 0.0F;
   float high = 255.0F;
 };
 
-/// The range between two quantiles of a CV_32FC1 or CV_8UC1 image of 0..255, at least one grey
+/// The range between two quantiles of a CV_32FC1 or CV_8UC1 image of 0..255, at least one gray
 /// level wide.
 IntensityRange intensityRange(const cv::Mat& image, double quantile);
 
@@ -28,15 +28,15 @@ struct BinPosition {
   bool is_clamped;
 };
 
-/// Maps grey levels to bins.
+/// Maps gray levels to bins.
 class Binning {
  public:
   Binning() = default;
   Binning(const IntensityRange& range, int num_bins);
 
   BinPosition operator()(float intensity) const;
-  float binsPerGreyLevel() const { return scale_; }
-  float low() const { return low_; }  ///< grey level at the centre of the first bin
+  float binsPerGrayLevel() const { return scale_; }
+  float low() const { return low_; }  ///< gray level at the center of the first bin
   float top() const { return top_; }  ///< largest position
 
  private:
@@ -73,7 +73,7 @@ class JointHistogram {
 
   /// Divides by the number of added pairs, and computes marginals, log ratios and mutual
   /// information.
-  void normalise(std::size_t num_pairs);
+  void normalize(std::size_t num_pairs);
 
   double joint(int reference, int live) const { return joint_[index(reference, live)]; }
   double referenceMarginal(int reference) const {

@@ -92,7 +92,7 @@ MiDerivatives mutualInformationDerivatives(const ReferencePoints& points,
   if (num_visible == 0) return result;
   const std::size_t n = points.size();
   const auto cells = static_cast<std::size_t>(histogram.side() * histogram.side());
-  const auto scale = static_cast<double>(reference.bins_per_grey_level);
+  const auto scale = static_cast<double>(reference.bins_per_gray_level);
   // A clamped intensity does not change under small motions.
   Recycled<std::vector<float>> active;
   active->resize(n);
@@ -111,7 +111,7 @@ MiDerivatives mutualInformationDerivatives(const ReferencePoints& points,
     kernels::active().miDerivatives(
         reference.bins(begin), {live.bin + begin, live.fraction + begin}, active->data() + begin,
         reference.jacobian_rows.data() + begin * kernels::kRowFloats, jacobian, second_derivative,
-        end - begin, histogram.side(), reference.bins_per_grey_level, histogram.logRatios().data(),
+        end - begin, histogram.side(), reference.bins_per_gray_level, histogram.logRatios().data(),
         part.rows, part.sums);
   });
   addUp(*parts, numChunks(n));

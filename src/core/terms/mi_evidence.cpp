@@ -7,7 +7,7 @@
 namespace mivo {
 namespace {
 
-// min(n, this): neighbouring points are correlated, so that more of them add no significance. Equal
+// min(n, this): neighboring points are correlated, so that more of them add no significance. Equal
 // to the default of min_points.
 constexpr double kIndependentPoints = 1500.0;
 // Eigenvalues of the correlation of the cubic B-spline windows between which intensities fall, for

@@ -10,7 +10,7 @@ namespace mivo {
 /// as many as the overlapping windows of the bins leave independent.
 struct MiEvidence {
   /// Number of standard deviations above the mean of unrelated images. Counts at most 1500 points,
-  /// because neighbours are correlated.
+  /// because neighbors are correlated.
   double deviations = 0.0;
   /// Correlation of two Gaussian images with the same mutual information, 0..1.
   double correlation = 0.0;

@@ -39,7 +39,7 @@ Matrix6 selfHessian(const ReferencePoints& points, const MiReference& reference,
   JointHistogram histogram(parameters.mi.mi_bins);
   histogram.clear();
   histogram.add(reference.bins(), reference.bins(), all.data(), points.size());
-  histogram.normalise(points.size());
+  histogram.normalize(points.size());
   const MiDerivatives derivatives =
       mutualInformationDerivatives(points, reference, reference.bins(), all, points.size(),
                                    histogram, parameters.alignment.threads);
@@ -51,7 +51,7 @@ Matrix6 selfHessian(const ReferencePoints& points, const MiReference& reference,
 void makeMiReference(const ReferencePoints& points, const IntensityRange& range,
                      const Parameters& parameters, MiReference& reference) {
   const Binning binning(range, parameters.mi.mi_bins);
-  reference.bins_per_grey_level = binning.binsPerGreyLevel();
+  reference.bins_per_gray_level = binning.binsPerGrayLevel();
   placeInBins(points, binning, reference);
   arrangeJacobians(points, reference);
   if (parameters.mi.mi_hessian == MiHessian::kReference && points.size() > 0) {
@@ -93,7 +93,7 @@ void MiTerm::sample(const Eigen::Isometry3d& T_live_ref) {
   live_bin_->resize(points_.size());
   live_fraction_->resize(points_.size());
   kernels::active().binPositions(samples_->value.data(), points_.size(), live_binning_.low(),
-                                 live_binning_.binsPerGreyLevel(), live_binning_.top(),
+                                 live_binning_.binsPerGrayLevel(), live_binning_.top(),
                                  live_bin_->data(), live_fraction_->data());
   const std::size_t chunks = numChunks(points_.size());
   if (parts_->size() < chunks) parts_->resize(chunks);
@@ -107,11 +107,11 @@ void MiTerm::sample(const Eigen::Isometry3d& T_live_ref) {
                });
   histogram_->clear();
   for (std::size_t chunk = 0; chunk < chunks; ++chunk) histogram_->add((*parts_)[chunk]);
-  histogram_->normalise(samples_->num_visible);
+  histogram_->normalize(samples_->num_visible);
   mutual_information_ = histogram_->mutualInformation();
 }
 
-QuadraticModel MiTerm::linearise(int) {
+QuadraticModel MiTerm::linearize(int) {
   QuadraticModel model;
   const auto n = static_cast<double>(points_.size());
   const MiDerivatives derivatives =

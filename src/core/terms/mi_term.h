@@ -21,7 +21,7 @@ struct MiReference {
   std::vector<float> unclamped;  ///< 1, or 0 for an intensity outside of the range
   /// d intensity / d increment of each point in kernels::kRowFloats floats.
   std::vector<float> jacobian_rows;
-  float bins_per_grey_level = 0.0F;
+  float bins_per_gray_level = 0.0F;
   /// Hessian of the cost of the keyframe aligned with itself, nats; for mi_hessian reference.
   Matrix6 self_hessian = Matrix6::Identity();
 
@@ -42,12 +42,12 @@ void makeMiReference(const ReferencePoints& points, const IntensityRange& range,
 class MiTerm : public CostTerm {
  public:
   /// Keeps references to all arguments but the range and the parameters. `points` need second
-  /// derivatives. @param live_range range of grey levels of the live image.
+  /// derivatives. @param live_range range of gray levels of the live image.
   MiTerm(const ReferencePoints& points, const MiReference& reference, const cv::Mat& live_image,
          const IntensityRange& live_range, const Warp& warp, const Parameters& parameters);
 
   double evaluate(const Eigen::Isometry3d& T_live_ref) override;
-  QuadraticModel linearise(int iteration) override;
+  QuadraticModel linearize(int iteration) override;
   Agreement agreement(std::size_t most_points) const override;
 
   double mutualInformation() const { return mutual_information_; }

@@ -29,7 +29,7 @@ double MotionPriorTerm::evaluate(const Eigen::Isometry3d& T_live_ref) {
   return 0.5 * error.dot(information_ * error);
 }
 
-QuadraticModel MotionPriorTerm::linearise(int /*iteration*/) {
+QuadraticModel MotionPriorTerm::linearize(int /*iteration*/) {
   const Vector6 error = localCoordinates(T_expected_live_);
   // T <- T retract(d)⁻¹ moves the error by an increment in the expected camera's axes.
   const Matrix6 J = derivativeOfError(error) * adjoint(T_expected_ref_);

@@ -19,7 +19,7 @@ class MotionPriorTerm : public CostTerm {
                   double weight);
 
   double evaluate(const Eigen::Isometry3d& T_live_ref) override;
-  QuadraticModel linearise(int iteration) override;
+  QuadraticModel linearize(int iteration) override;
 
  private:
   Eigen::Isometry3d T_expected_ref_;

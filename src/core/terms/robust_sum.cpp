@@ -156,7 +156,7 @@ int RobustSum::scoreCovariance(const Residuals& residuals,
   return count;
 }
 
-QuadraticModel RobustSum::linearise(const Residuals& residuals,
+QuadraticModel RobustSum::linearize(const Residuals& residuals,
                                     const std::array<const float*, 6>& jacobian, int iteration) {
   if (residuals.num_visible == 0) {
     QuadraticModel nothing;

@@ -30,11 +30,11 @@ class RobustSum {
 
   /// Model for residuals r(d) = r - J d, those of the last cost(). The scale is estimated again in
   /// the first iterations of a level.
-  QuadraticModel linearise(const Residuals& residuals, const std::array<const float*, 6>& jacobian,
+  QuadraticModel linearize(const Residuals& residuals, const std::array<const float*, 6>& jacobian,
                            int iteration);
 
-  /// Covariance of the gradient that linearise() gives, estimated from blocks of the image:
-  /// neighbouring points have common errors (depth, blur) and count as one. In the units of the
+  /// Covariance of the gradient that linearize() gives, estimated from blocks of the image:
+  /// neighboring points have common errors (depth, blur) and count as one. In the units of the
   /// Hessian; by H⁻¹ C H⁻¹ it becomes that of the increment. @param u, @param v pixels of the
   /// points, in the image of `camera`. Returns the number of blocks with points.
   int scoreCovariance(const Residuals& residuals, const std::array<const float*, 6>& jacobian,

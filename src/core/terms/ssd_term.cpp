@@ -37,7 +37,7 @@ double SsdTerm::evaluate(const Eigen::Isometry3d& T_live_ref) {
 
 void SsdTerm::sample(const Eigen::Isometry3d& T_live_ref) {
   if (contrast_ != nullptr) {
-    warp_.sampleNormalised(points_, num_points_, T_live_ref, live_image_, *contrast_, saturation_,
+    warp_.sampleNormalized(points_, num_points_, T_live_ref, live_image_, *contrast_, saturation_,
                            *samples_);
   } else {
     warp_.sample(points_, num_points_, T_live_ref, live_image_, *samples_);
@@ -56,11 +56,11 @@ void SsdTerm::sample(const Eigen::Isometry3d& T_live_ref) {
   is_sampled_ = true;
 }
 
-QuadraticModel SsdTerm::linearise(int iteration) {
+QuadraticModel SsdTerm::linearize(int iteration) {
   std::array<const float*, 6> jacobian;
   for (std::size_t k = 0; k < 6; ++k) jacobian[k] = points_.jacobian[k].data();
   if (iteration < scale_iterations_) weight_ = isSignificant() ? 1.0 : kNoWeight;
-  QuadraticModel model = sum_.linearise(*residuals_, jacobian, iteration);
+  QuadraticModel model = sum_.linearize(*residuals_, jacobian, iteration);
   model.cost *= weight_;
   model.gradient *= weight_;
   model.hessian *= weight_;

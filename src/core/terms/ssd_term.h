@@ -14,8 +14,8 @@
 namespace mivo {
 
 /// Robust sum of squared differences (Eq. 1), inverse compositional Gauss-Newton: residual
-/// r = contrast * live - intensity, in grey levels, with a scale estimated from the residuals. If
-/// negative_images is set and the normalised images are negatively correlated at the first pose,
+/// r = contrast * live - intensity, in gray levels, with a scale estimated from the residuals. If
+/// negative_images is set and the normalized images are negatively correlated at the first pose,
 /// the live image is inverted.
 class SsdTerm : public CostTerm {
  public:
@@ -25,11 +25,11 @@ class SsdTerm : public CostTerm {
           const ContrastMap* contrast, const Warp& warp, const Parameters& parameters);
 
   double evaluate(const Eigen::Isometry3d& T_live_ref) override;
-  QuadraticModel linearise(int iteration) override;
+  QuadraticModel linearize(int iteration) override;
   int gradientCovariance(Matrix6& covariance) const override;
   Agreement agreement(std::size_t most_points) const override;
 
-  /// Robust standard deviation of the residuals, grey levels; 0 before the first evaluate().
+  /// Robust standard deviation of the residuals, gray levels; 0 before the first evaluate().
   double scale() const { return sum_.scale(); }
 
   /// Correlation of what keyframe and live image show at the last pose, -1..1.

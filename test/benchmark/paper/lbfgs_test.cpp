@@ -21,7 +21,7 @@ class PointDistance : public CostTerm {
     return cost;
   }
 
-  QuadraticModel linearise(int) override {
+  QuadraticModel linearize(int) override {
     QuadraticModel model;
     model.cost = evaluate(T_);
     for (const Eigen::Vector3d& X : points_) {
@@ -52,7 +52,7 @@ TEST_P(LbfgsTest, FindsTheMinimumOfASmoothCost) {
   PointDistance term(pose(1.0));
   Parameters parameters;
   parameters.alignment.min_cost_change = 0.0;
-  const LbfgsResult result = minimiseByLbfgs(term, pose(-0.5), 2.0, GetParam(), parameters);
+  const LbfgsResult result = minimizeByLbfgs(term, pose(-0.5), 2.0, GetParam(), parameters);
   EXPECT_TRUE(result.T_live_ref.isApprox(pose(1.0), 1e-5)) << result.cost;
   EXPECT_LT(result.cost, 1e-9);
   EXPECT_GT(result.iterations, 1);
@@ -68,9 +68,9 @@ TEST(Lbfgs, TakesTheSameStepsWithEitherGradient) {
   Parameters parameters;
   parameters.alignment.min_cost_change = 1e-6;
   const LbfgsResult exact =
-      minimiseByLbfgs(term, pose(-0.5), 2.0, GradientSource::kTerm, parameters);
+      minimizeByLbfgs(term, pose(-0.5), 2.0, GradientSource::kTerm, parameters);
   const LbfgsResult differences =
-      minimiseByLbfgs(term, pose(-0.5), 2.0, GradientSource::kDifferences, parameters);
+      minimizeByLbfgs(term, pose(-0.5), 2.0, GradientSource::kDifferences, parameters);
   EXPECT_EQ(differences.iterations, exact.iterations);
   EXPECT_TRUE(differences.T_live_ref.isApprox(exact.T_live_ref, 1e-6));
 }

@@ -129,16 +129,16 @@ TEST_F(ExperimentTest, ConvergenceCountsWhatEndsNearTheTruth) {
 }
 
 #ifdef MIVO_WITH_CERES
-TEST_F(ExperimentTest, EveryOptimiserStaysAtTheTruth) {
-  for (const char* optimiser : {"newton", "lbfgs", "lbfgs_differences"}) {
+TEST_F(ExperimentTest, EveryOptimizerStaysAtTheTruth) {
+  for (const char* optimizer : {"newton", "lbfgs", "lbfgs_differences"}) {
     const auto rows =
-        experiment("optimiser_experiment", {"--magnitude", "0", "--optimiser", optimiser});
-    ASSERT_EQ(rows.size(), 6U) << optimiser;
+        experiment("optimizer_experiment", {"--magnitude", "0", "--optimizer", optimizer});
+    ASSERT_EQ(rows.size(), 6U) << optimizer;
     for (const auto& row : rows) {
-      EXPECT_LT(row[1], 0.01) << optimiser;
-      EXPECT_LT(row[2], 0.01) << optimiser;
-      EXPECT_EQ(row[3], 1.0) << optimiser;
-      EXPECT_LT(row[4], 0.0) << optimiser;  // the cost is minus the information
+      EXPECT_LT(row[1], 0.01) << optimizer;
+      EXPECT_LT(row[2], 0.01) << optimizer;
+      EXPECT_EQ(row[3], 1.0) << optimizer;
+      EXPECT_LT(row[4], 0.0) << optimizer;  // the cost is minus the information
     }
   }
 }

@@ -24,7 +24,7 @@ Parameters paperParameters(Method method) {
   return parameters;
 }
 
-/// Two frames of a room, half a degree and a few centimetres apart.
+/// Two frames of a room, half a degree and a few centimeters apart.
 class AlignTest : public ::testing::Test {
  protected:
   Alignment run(const Parameters& parameters, const Eigen::Isometry3d& T_live_ref_start,
@@ -184,11 +184,11 @@ TEST_F(AlignTest, ACurvedResponseIsNoMatterToMutualInformation) {
   expectClose(run(paperParameters(Method::kMi), start), truth_, 0.008, 0.004);
 }
 
-TEST_F(AlignTest, NormalisedContrastStandsLightThatChangesAndMoves) {
+TEST_F(AlignTest, NormalizedContrastStandsLightThatChangesAndMoves) {
   Light lamp;
   lamp.gain = 0.45;
   lamp.spot = 0.35;
-  lamp.spot_centre = {50.0, 40.0};
+  lamp.spot_center = {50.0, 40.0};
   lamp.spot_radius = 35.0;
   relight(lamp);
   const Eigen::Isometry3d start = Random(7).pose(0.02, 0.01) * truth_;
@@ -325,10 +325,10 @@ TEST_F(AlignTest, RowsReadOneAfterTheOtherAreAllowedFor) {
     };
     const Vector6 global = errorWith(0.0, 0.0);
     const Vector6 ignored = errorWith(kReadout, 0.0);
-    const Vector6 modelled = errorWith(kReadout, kReadout);
+    const Vector6 modeled = errorWith(kReadout, kReadout);
     EXPECT_GT((ignored - global).norm(), 1e-3);
-    EXPECT_LT((modelled - global).norm(), 0.5 * (ignored - global).norm());
-    EXPECT_LT(modelled.norm(), 0.003);
+    EXPECT_LT((modeled - global).norm(), 0.5 * (ignored - global).norm());
+    EXPECT_LT(modeled.norm(), 0.003);
   }
 }
 

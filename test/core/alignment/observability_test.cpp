@@ -19,7 +19,7 @@ constexpr double kSignal = 100.0;  // of the derivatives in median depths and ra
 constexpr double kNoise = 5.0;
 constexpr std::array<bool, 6> kAll = {true, true, true, true, true, true};
 
-/// Increments in median depths to metres.
+/// Increments in median depths to meters.
 Vector6 scale() {
   return (Vector6() << kLength, kLength, kLength, 1.0, 1.0, 1.0).finished();
 }
@@ -54,7 +54,7 @@ class TwoFrames {
     return v;
   }
 
-  /// Of an increment in metres and rad.
+  /// Of an increment in meters and rad.
   void add(const Vector6& by_keyframe, const Vector6& by_live) {
     by_keyframe_.emplace_back(scale().cwiseInverse().cwiseProduct(by_keyframe));
     by_live_.emplace_back(scale().cwiseInverse().cwiseProduct(by_live));
@@ -87,7 +87,7 @@ Observability confirmed(const TermCurvature& term) {
   return seen;
 }
 
-/// Everything is seen but the given axes, in metres and rad.
+/// Everything is seen but the given axes, in meters and rad.
 Observability withOpen(const std::vector<Vector6>& open) {
   Matrix6 projector = Matrix6::Identity();
   for (const Vector6& axis : open) {
@@ -266,7 +266,7 @@ TEST(ObservabilityTest, DirectionsAreToldInTheAxesOfTheLiveCamera) {
   EXPECT_EQ(seen.openDirections(turned(1, 90.0)), forward);
   const Directions rolling = {false, false, false, false, false, true};
   EXPECT_EQ(withOpen({Vector6::Unit(5)}).openDirections(turned(2, 30.0)), rolling);
-  // Turning about a place two metres ahead takes the camera sideways.
+  // Turning about a place two meters ahead takes the camera sideways.
   const Vector6 about_place = adjoint(retract(2.0 * Vector6::Unit(2))) * Vector6::Unit(4);
   const Directions around = {true, false, false, false, true, false};
   EXPECT_EQ(withOpen({about_place}).openDirections(Eigen::Isometry3d::Identity()), around);

@@ -30,7 +30,7 @@ class WarpTest : public ::testing::Test {
   void sample(const Camera& camera, const Eigen::Isometry3d& T_live_ref,
               const RowMotion& rows = {}) {
     const cv::Mat image =
-        testing::rasterised(testing::rampImage(90.0, kSlope), camera.width, camera.height);
+        testing::rasterized(testing::rampImage(90.0, kSlope), camera.width, camera.height);
     points_ = testing::analyticPoints(testing::waves(), camera, 3);
     Warp(camera, rows, 1).sample(points_, points_.size(), T_live_ref, image, samples_);
   }
@@ -134,20 +134,20 @@ TEST_F(WarpTest, RowsAreReadAtTheirTime) {
   }
 }
 
-TEST_F(WarpTest, NormalisedSamplesAreOffsetAndGain) {
+TEST_F(WarpTest, NormalizedSamplesAreOffsetAndGain) {
   const Camera camera = analyticCamera();
   points_ = testing::analyticPoints(testing::waves(), camera, 3);
   const cv::Mat image =
-      testing::rasterised(testing::rampImage(90.0, kSlope), camera.width, camera.height);
+      testing::rasterized(testing::rampImage(90.0, kSlope), camera.width, camera.height);
   // A map whose pixel (u, v) lies at (4u, 4v): ramps, so that its interpolation is exact too.
   ContrastMap map;
   const cv::Mat values[] = {
-      testing::rasterised(testing::rampImage(50.0, {0.4, 0.2}), 26, 21, 4.0),
-      testing::rasterised(testing::rampImage(20.0, {0.1, -0.05}), 26, 21, 4.0)};
+      testing::rasterized(testing::rampImage(50.0, {0.4, 0.2}), 26, 21, 4.0),
+      testing::rasterized(testing::rampImage(20.0, {0.1, -0.05}), 26, 21, 4.0)};
   cv::merge(values, 2, map.pairs);
   map.constant = 3.0F;
   const Eigen::Isometry3d T = Random(3).pose(0.05, 0.05);
-  Warp(camera, {}, 1).sampleNormalised(points_, points_.size(), T, image, map, 256.0, samples_);
+  Warp(camera, {}, 1).sampleNormalized(points_, points_.size(), T, image, map, 256.0, samples_);
   for (std::size_t i = 0; i < points_.size(); ++i) {
     if (samples_.visible[i] == 0.0F || samples_.u[i] > 95.0F || samples_.v[i] > 75.0F) continue;
     const Eigen::Vector2d p(static_cast<double>(samples_.u[i]), static_cast<double>(samples_.v[i]));
@@ -160,14 +160,14 @@ TEST_F(WarpTest, NormalisedSamplesAreOffsetAndGain) {
 TEST_F(WarpTest, WhatMayBeClippedIsInViewButNotVisible) {
   const Camera camera = testing::analyticCamera();
   points_ = testing::analyticPoints(testing::waves(), camera, 3);
-  // Grey 90 at the left end, 2 more in each column: 250 from column 80 on.
+  // Gray 90 at the left end, 2 more in each column: 250 from column 80 on.
   const cv::Mat image =
-      testing::rasterised(testing::rampImage(90.0, {2.0, 0.0}), camera.width, camera.height);
+      testing::rasterized(testing::rampImage(90.0, {2.0, 0.0}), camera.width, camera.height);
   ContrastMap map;
   map.pairs = cv::Mat(camera.height / 4 + 2, camera.width / 4 + 2, CV_32FC2, cv::Scalar(100, 10));
   map.constant = 1.0F;
   Warp(camera, {}, 1)
-      .sampleNormalised(points_, points_.size(), Eigen::Isometry3d::Identity(), image, map, 250.0,
+      .sampleNormalized(points_, points_.size(), Eigen::Isometry3d::Identity(), image, map, 250.0,
                         samples_);
   std::size_t visible = 0;
   for (std::size_t i = 0; i < points_.size(); ++i) {
@@ -182,7 +182,7 @@ TEST_F(WarpTest, WhatMayBeClippedIsInViewButNotVisible) {
 
 TEST_F(WarpTest, TheNumberOfThreadsDoesNotChangeABit) {
   const Camera camera = lensCamera();
-  const cv::Mat image = testing::rasterised(testing::blobs(), camera.width, camera.height);
+  const cv::Mat image = testing::rasterized(testing::blobs(), camera.width, camera.height);
   points_ = testing::analyticPoints(testing::waves(), camera, 1);
   ASSERT_GT(points_.size(), 2U * 2048U);  // several chunks
   const Eigen::Isometry3d T = Random(4).pose(0.1, 0.1);

@@ -20,10 +20,10 @@ ContrastMaps mapsOf(const cv::Mat& image) {
   return maps;
 }
 
-cv::Mat normalised(const cv::Mat& image) {
+cv::Mat normalized(const cv::Mat& image) {
   const ContrastMaps maps = mapsOf(image);
   cv::Mat result;
-  normaliseImage(image, maps.level(0), result);
+  normalizeImage(image, maps.level(0), result);
   return result;
 }
 
@@ -60,7 +60,7 @@ TEST(ContrastMapsTest, TheLocalMeanOfARampIsItsValueThere) {
   for (int y = 24; y < 96; y += 5) {
     for (int x = 24; x < 136; x += 3) {
       const double mean_error = static_cast<double>(
-          normalisedIntensity(image, maps.level(0), x, y) * localContrast(maps.level(0), x, y));
+          normalizedIntensity(image, maps.level(0), x, y) * localContrast(maps.level(0), x, y));
       EXPECT_NEAR(mean_error, 0.0, 0.1 * kSlope) << x << ' ' << y;
     }
   }
@@ -81,11 +81,11 @@ TEST(ContrastMapsTest, TheDeviationIsThatOfTheWindow) {
 
 TEST(ContrastMapsTest, GainAndOffsetOfTheLightDropOut) {
   const cv::Mat image = relit(room(), 0.5, 0.0);  // room for a gain
-  const cv::Mat before = normalised(image);
-  EXPECT_LT(meanDifference(normalised(relit(image, 1.0, 60.0)), before), 0.05);
-  EXPECT_LT(meanDifference(normalised(relit(image, 2.0, 0.0)), before), 0.5);
-  EXPECT_LT(meanDifference(normalised(relit(image, 1.5, 30.0)), before), 1.5);
-  // It is not the same picture everywhere: the normalised image has contrast.
+  const cv::Mat before = normalized(image);
+  EXPECT_LT(meanDifference(normalized(relit(image, 1.0, 60.0)), before), 0.05);
+  EXPECT_LT(meanDifference(normalized(relit(image, 2.0, 0.0)), before), 0.5);
+  EXPECT_LT(meanDifference(normalized(relit(image, 1.5, 30.0)), before), 1.5);
+  // It is not the same picture everywhere: the normalized image has contrast.
   cv::Scalar mean;
   cv::Scalar deviation;
   cv::meanStdDev(before, mean, deviation);
@@ -100,8 +100,8 @@ TEST(ContrastMapsTest, TheSameForBytesAndFloats) {
   const ContrastMaps maps = mapsOf(image);
   cv::Mat a;
   cv::Mat b;
-  normaliseImage(image, maps.level(0), a);
-  normaliseImage(real, maps.level(0), b);
+  normalizeImage(image, maps.level(0), a);
+  normalizeImage(real, maps.level(0), b);
   EXPECT_LT(cv::norm(a, b, cv::NORM_INF), 1e-3);
 }
 
@@ -127,9 +127,9 @@ TEST(ContrastMapsTest, TheConstantFallsWithTheLightDownToAFloor) {
   EXPECT_EQ(mapsOf(cv::Mat(120, 160, CV_8UC1, cv::Scalar(99))).level(1).constant, 0.2F);
 }
 
-TEST(ContrastMapsTest, AFlatImageIsMiddleGrey) {
-  for (const int grey : {0, 100, 255}) {
-    const cv::Mat result = normalised(cv::Mat(120, 160, CV_8UC1, cv::Scalar(grey)));
+TEST(ContrastMapsTest, AFlatImageIsMiddleGray) {
+  for (const int gray : {0, 100, 255}) {
+    const cv::Mat result = normalized(cv::Mat(120, 160, CV_8UC1, cv::Scalar(gray)));
     EXPECT_NEAR(cv::norm(result, cv::Mat(120, 160, CV_32FC1, cv::Scalar(128)), cv::NORM_INF), 0.0,
                 1e-2);
   }

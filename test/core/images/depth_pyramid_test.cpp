@@ -16,15 +16,15 @@ Frame frameOf(const cv::Mat& depth) {
   return frame;
 }
 
-cv::Mat constantDepth(float metres) {
-  return {12, 16, CV_32FC1, cv::Scalar(metres)};
+cv::Mat constantDepth(float meters) {
+  return {12, 16, CV_32FC1, cv::Scalar(meters)};
 }
 
 constexpr double kMin = 0.3;
 constexpr double kMax = 10.0;
 constexpr double kRatio = 0.06;
 
-TEST(DepthPyramidTest, IntegersAndMetresGiveTheSameDepth) {
+TEST(DepthPyramidTest, IntegersAndMetersGiveTheSameDepth) {
   cv::Mat raw(12, 16, CV_16UC1, cv::Scalar(2500));
   Frame frame = frameOf(raw);
   frame.depth_unit = 0.0004;
@@ -113,7 +113,7 @@ bool isSmoothDepth(const cv::Mat& depth, int x, int y, float edge_ratio) {
   return candidates[static_cast<std::size_t>(x)] != 0;
 }
 
-TEST(SmoothDepthTest, AHoleOrAnEdgeInTheNeighbourhoodIsNotSmooth) {
+TEST(SmoothDepthTest, AHoleOrAnEdgeInTheNeighborhoodIsNotSmooth) {
   cv::Mat depth = constantDepth(2.0F);
   EXPECT_TRUE(isSmoothDepth(depth, 5, 5, 0.06F));
   depth.at<float>(4, 4) = 0.0F;

@@ -24,10 +24,10 @@ TEST(FramePyramidTest, TheFinestLevelIsSmoothedToBeCompared) {
   pyramid.build(frame, Parameters());
   const int middle = frame.image.cols / 2;
   // (1, 2, 1) / 4 across the edge.
-  EXPECT_EQ(pyramid.grey(0).at<unsigned char>(60, middle - 2), 40);
-  EXPECT_EQ(pyramid.grey(0).at<unsigned char>(60, middle - 1), 60);
-  EXPECT_EQ(pyramid.grey(0).at<unsigned char>(60, middle), 100);
-  EXPECT_EQ(pyramid.grey(0).at<unsigned char>(60, middle + 1), 120);
+  EXPECT_EQ(pyramid.gray(0).at<unsigned char>(60, middle - 2), 40);
+  EXPECT_EQ(pyramid.gray(0).at<unsigned char>(60, middle - 1), 60);
+  EXPECT_EQ(pyramid.gray(0).at<unsigned char>(60, middle), 100);
+  EXPECT_EQ(pyramid.gray(0).at<unsigned char>(60, middle + 1), 120);
   EXPECT_EQ(cv::norm(pyramid.image(), frame.image, cv::NORM_INF), 0.0);
 }
 
@@ -37,7 +37,7 @@ TEST(FramePyramidTest, ThePapersIntensitiesAreLeftAsTheyAre) {
   parameters.alignment.photometric_model = PhotometricModel::kNone;
   FramePyramid pyramid;
   pyramid.build(frame, parameters);
-  EXPECT_EQ(cv::norm(pyramid.grey(0), frame.image, cv::NORM_INF), 0.0);
+  EXPECT_EQ(cv::norm(pyramid.gray(0), frame.image, cv::NORM_INF), 0.0);
 }
 
 TEST(FramePyramidTest, BesideAClippedPixelNothingIsSmoothed) {
@@ -48,9 +48,9 @@ TEST(FramePyramidTest, BesideAClippedPixelNothingIsSmoothed) {
     parameters.alignment.saturation = saturation;
     FramePyramid pyramid;
     pyramid.build(frame, parameters);
-    // A quarter of the pixel itself, three quarters of its neighbours; an eighth of it beside.
-    EXPECT_EQ(pyramid.grey(0).at<unsigned char>(60, 30), saturation == 250.0 ? 250 : 93);
-    EXPECT_EQ(pyramid.grey(0).at<unsigned char>(60, 31), saturation == 250.0 ? 40 : 66);
+    // A quarter of the pixel itself, three quarters of its neighbors; an eighth of it beside.
+    EXPECT_EQ(pyramid.gray(0).at<unsigned char>(60, 30), saturation == 250.0 ? 250 : 93);
+    EXPECT_EQ(pyramid.gray(0).at<unsigned char>(60, 31), saturation == 250.0 ? 40 : 66);
   }
 }
 

@@ -21,19 +21,19 @@ Array surface(Numbers& numbers, std::size_t n, std::size_t offset) {
   return depth;
 }
 
-TEST(VectorDepthTest, RowsInMetresEqualTheReference) {
+TEST(VectorDepthTest, RowsInMetersEqualTheReference) {
   const float awkward[] = {kNan, kInfinity, -kInfinity, -1.0F, 0.0F, 0.5F, 4.0F, 1e-40F};
   forEachCase([&](const Kernels& kernels, std::size_t n, std::size_t offset) {
     Numbers numbers(21);
-    Array metres = numbers.array(n, offset, 0.0F, 6.0F);
+    Array meters = numbers.array(n, offset, 0.0F, 6.0F);
     std::vector<std::uint16_t> steps(n + offset);
     for (std::size_t i = 0; i < n; ++i) {
-      if (numbers.chance(0.3F)) metres[i] = awkward[i % 8];
+      if (numbers.chance(0.3F)) meters[i] = awkward[i % 8];
       steps[i + offset] = static_cast<std::uint16_t>(numbers.between(0.0F, 65535.9F));
     }
     const auto width = static_cast<int>(n);
     for (const bool is_metric : {false, true}) {
-      const kernels::DepthView depth{is_metric ? metres.data() : nullptr,
+      const kernels::DepthView depth{is_metric ? meters.data() : nullptr,
                                      is_metric ? nullptr : steps.data() + offset, width, 0.0002F};
       for (const int first : {0, 3}) {
         Array expected(n, offset, -5.0F);

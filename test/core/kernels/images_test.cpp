@@ -142,7 +142,7 @@ TEST(ImageKernelTest, MapsContrastLikeBoxFilters) {
   });
 }
 
-TEST(ImageKernelTest, NormalisesByTheInterpolatedMap) {
+TEST(ImageKernelTest, NormalizesByTheInterpolatedMap) {
   forEachImage([](const kernels::Kernels& kernels, const Size& size) {
     const cv::Mat bytes = randomBytes(size, 3);
     cv::Mat map((size.height + 3) / 4 + 1, (size.width + 3) / 4 + 1, CV_32FC2);
@@ -153,7 +153,7 @@ TEST(ImageKernelTest, NormalisesByTheInterpolatedMap) {
     for (const cv::Mat& image : {bytes, asFloats(bytes)}) {
       cv::Mat actual(size.height, size.width, CV_32FC1);
       std::vector<float> scratch = scratchFor(size);
-      kernels.normaliseImage(viewOf(image), contrast, {2.0F, 128.0F, 55.0F, 255.0F},
+      kernels.normalizeImage(viewOf(image), contrast, {2.0F, 128.0F, 55.0F, 255.0F},
                              actual.ptr<float>(), static_cast<std::ptrdiff_t>(actual.step1()),
                              scratch.data());
       for (int y = 0; y < size.height; ++y) {
@@ -167,8 +167,8 @@ TEST(ImageKernelTest, NormalisesByTheInterpolatedMap) {
                    cv::Vec2d(map.at<cv::Vec2f>(y / 4 + j, x / 4 + i));
             }
           }
-          const double grey = 128.0 + 55.0 * (bytes.at<unsigned char>(y, x) - m[0]) / (m[1] + 2.0);
-          EXPECT_NEAR(actual.at<float>(y, x), std::min(255.0, std::max(0.0, grey)), 5e-3);
+          const double gray = 128.0 + 55.0 * (bytes.at<unsigned char>(y, x) - m[0]) / (m[1] + 2.0);
+          EXPECT_NEAR(actual.at<float>(y, x), std::min(255.0, std::max(0.0, gray)), 5e-3);
         }
       }
     }
@@ -178,7 +178,7 @@ TEST(ImageKernelTest, NormalisesByTheInterpolatedMap) {
 TEST(ImageKernelTest, FindsTheSameGradientsAndMaximaAsTheReference) {
   forEachImage([](const kernels::Kernels& kernels, const Size& size) {
     const cv::Mat bytes = randomBytes(size, 5);
-    // Blurred, so that neighbours differ by little, and in steps, so that many are equal.
+    // Blurred, so that neighbors differ by little, and in steps, so that many are equal.
     cv::Mat smooth;
     cv::GaussianBlur(bytes, smooth, {3, 3}, 0.0);
     for (const cv::Mat& image : {bytes, smooth, asFloats(smooth)}) {

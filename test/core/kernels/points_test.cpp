@@ -169,7 +169,7 @@ TEST(VectorSampleTest, IntensitiesAgreeWithTheReference) {
   }
 }
 
-TEST(VectorSampleTest, NormalisedIntensitiesAgreeWithTheReference) {
+TEST(VectorSampleTest, NormalizedIntensitiesAgreeWithTheReference) {
   const Pictures pictures(4);
   for (const bool as_bytes : {false, true}) {
     forEachCase([&](const Kernels& kernels, std::size_t n, std::size_t offset) {
@@ -178,7 +178,7 @@ TEST(VectorSampleTest, NormalisedIntensitiesAgreeWithTheReference) {
       Array actual(n, offset, kNan);
       // The brighter half is hidden.
       const auto sample = [&](const Kernels& k, Array& visible, Array& out) {
-        return k.sampleNormalised(pictures.image(as_bytes), pictures.contrast(), 128.0F,
+        return k.sampleNormalized(pictures.image(as_bytes), pictures.contrast(), 128.0F,
                                   pixels.u.data(), pixels.v.data(), visible.data(), n, out.data());
       };
       Array expected_visible = pixels.visible;

@@ -182,17 +182,17 @@ struct GeometricOutput {
 
 TEST(VectorGeometryTest, AgreesWithTheReference) {
   Numbers depths(9);
-  std::vector<float> metres;
+  std::vector<float> meters;
   std::vector<std::uint16_t> steps;
   const float awkward[] = {0.0F, kNan, -1.0F, kInfinity, 1e9F};
   for (int i = 0; i < kWidth * kHeight; ++i) {
     steps.push_back(depths.chance(0.1F) ? std::uint16_t{0}
                                         : static_cast<std::uint16_t>(depths.between(500, 65535)));
-    metres.push_back(depths.chance(0.2F) ? awkward[i % 5] : depths.between(0.5F, 4.0F));
+    meters.push_back(depths.chance(0.2F) ? awkward[i % 5] : depths.between(0.5F, 4.0F));
   }
   for (const bool has_row_motion : {false, true}) {
     for (const bool is_metric : {false, true}) {
-      const kernels::DepthView depth{is_metric ? metres.data() : nullptr,
+      const kernels::DepthView depth{is_metric ? meters.data() : nullptr,
                                      is_metric ? nullptr : steps.data(), kWidth, 0.0002F};
       const kernels::WarpParameters live =
           testing::warpParameters(kernels::Lens::kNone, has_row_motion);

@@ -18,7 +18,7 @@ Keyframe wallKeyframe(const Parameters& parameters) {
   return keyframe;
 }
 
-// Second derivatives need the eight neighbours: the border has none.
+// Second derivatives need the eight neighbors: the border has none.
 std::size_t innerPixels(const Camera& camera) {
   return static_cast<std::size_t>((camera.width - 2) * (camera.height - 2));
 }

@@ -97,7 +97,7 @@ TEST(SelectSalientTest, AnEdgeBecomesAThinLine) {
       return testing::ImageJet{
           128.0 + 100.0 * std::tanh(0.4 * (normal.dot(p) - place)), {0, 0}, {}};
     };
-    const cv::Mat image = testing::rasterised(step, kWidth, kHeight);
+    const cv::Mat image = testing::rasterized(step, kWidth, kHeight);
     const std::vector<Pixel> pixels = salientPixels(image, flatDepth(), limits(100000));
     ASSERT_GT(pixels.size(), 30U) << angle;
     for (const Pixel& pixel : pixels) {
@@ -172,19 +172,19 @@ TEST(SelectSalientTest, EachCellGivesItsSteepestPoints) {
   }
 }
 
-// Candidates of each cell sorted outright. Grey levels of few steps make many equal gradients.
+// Candidates of each cell sorted outright. Gray levels of few steps make many equal gradients.
 TEST(SelectSalientTest, OfEquallySteepPixelsTheEarlierOnesAreTaken) {
   cv::Mat image;
   noiseImage(8).convertTo(image, CV_8UC1, 4.0 / 255.0);
   const std::vector<Pixel> all = salientPixels(image, flatDepth(), limits(100000));
-  cv::Mat grey;
-  image.convertTo(grey, CV_32FC1);
+  cv::Mat gray;
+  image.convertTo(gray, CV_32FC1);
   std::map<std::pair<int, int>, std::vector<Pixel>> cells;
   for (const Pixel& p : all) cells[{p.x / 16, p.y / 16}].push_back(p);
   std::set<std::pair<int, int>> expected;
   for (auto& entry : cells) {
     std::stable_sort(entry.second.begin(), entry.second.end(), [&](const Pixel& a, const Pixel& b) {
-      return squaredGradient(grey, a.x, a.y) > squaredGradient(grey, b.x, b.y);
+      return squaredGradient(gray, a.x, a.y) > squaredGradient(gray, b.x, b.y);
     });
     ASSERT_GT(entry.second.size(), 5U);
     for (std::size_t i = 0; i < 5; ++i) expected.insert({entry.second[i].x, entry.second[i].y});
@@ -198,7 +198,7 @@ TEST(SelectSalientTest, OfEquallySteepPixelsTheEarlierOnesAreTaken) {
 
 TEST(SelectSalientTest, WeakGradientsAreNoPoints) {
   const cv::Mat image =
-      testing::rasterised(testing::waveImage(128.0, {{3.0, {0.25, 0.0}, 0.0}}), kWidth, kHeight);
+      testing::rasterized(testing::waveImage(128.0, {{3.0, {0.25, 0.0}, 0.0}}), kWidth, kHeight);
   // The gradient's amplitude is 3 * sin(0.25) = 0.742.
   SelectionLimits low = limits(100000);
   low.min_gradient = 0.70F;

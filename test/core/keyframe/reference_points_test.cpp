@@ -122,7 +122,7 @@ TEST(ReferencePointsTest, DerivativesAreThoseOfTheIntensityUnderAnIncrement) {
   for (const Camera& camera : allCameras()) {
     const bool has_lens = !camera.distortion.isZero();
     const bool is_equidistant = camera.distortion.model == LensModel::kEquidistant;
-    const cv::Mat raster = testing::rasterised(image, camera.width, camera.height);
+    const cv::Mat raster = testing::rasterized(image, camera.width, camera.height);
     const ReferencePoints points = makePoints(raster, camera, kPixels);
     ASSERT_EQ(points.size(), kPixels.size());
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -149,7 +149,7 @@ TEST(ReferencePointsTest, AnImageOnARasterConvergesToTheTrueDerivative) {
     const Camera camera = analyticCamera();
     const AnalyticImage image = testing::waveImage(128.0, {{80.0, {frequency, 0.0}, 0.4}});
     const ReferencePoints points =
-        makePoints(testing::rasterised(image, camera.width, camera.height), camera, {{40, 30}});
+        makePoints(testing::rasterized(image, camera.width, camera.height), camera, {{40, 30}});
     const ReferencePoints exact = [&] {
       const Eigen::Vector2d f(camera.fx, camera.fy);
       const testing::ImageJet jet = image({40, 30});
@@ -170,7 +170,7 @@ TEST(ReferencePointsTest, PointsProjectToTheirPixelsAndKeepTheirIntensity) {
   const AnalyticImage image = testing::waves();
   for (const Camera& camera : allCameras()) {
     const ReferencePoints points =
-        makePoints(testing::rasterised(image, camera.width, camera.height), camera, kPixels);
+        makePoints(testing::rasterized(image, camera.width, camera.height), camera, kPixels);
     for (std::size_t i = 0; i < points.size(); ++i) {
       const Pixel& pixel = kPixels[i];
       const Eigen::Vector3d point = testing::pointAt(points, i);
@@ -186,7 +186,7 @@ TEST(ReferencePointsTest, PointsProjectToTheirPixelsAndKeepTheirIntensity) {
 TEST(ReferencePointsTest, PixelMotionIsTheMeanSquareOfWhatAnIncrementMoves) {
   Random random(2);
   for (const Camera& camera : allCameras()) {
-    const cv::Mat raster = testing::rasterised(testing::waves(), camera.width, camera.height);
+    const cv::Mat raster = testing::rasterized(testing::waves(), camera.width, camera.height);
     const ReferencePoints points = makePoints(raster, camera, kPixels);
     for (int trial = 0; trial < 5; ++trial) {
       const Vector6 d = random.increment(1e-5, 1e-5);
@@ -205,7 +205,7 @@ TEST(ReferencePointsTest, PixelMotionIsTheMeanSquareOfWhatAnIncrementMoves) {
 
 TEST(ReferencePointsTest, MedianDepthIsThatOfThePoints) {
   const Camera camera = analyticCamera();
-  const cv::Mat raster = testing::rasterised(testing::waves(), camera.width, camera.height);
+  const cv::Mat raster = testing::rasterized(testing::waves(), camera.width, camera.height);
   const ReferencePoints points = makePoints(raster, camera, {{10, 10}, {50, 10}, {90, 10}});
   EXPECT_NEAR(points.median_depth, testing::slopingDepth(50, 10), 1e-6);
   EXPECT_EQ(makePoints(raster, camera, {}).median_depth, 1.0F);
@@ -216,7 +216,7 @@ TEST(ReferencePointsTest, RowsReadAtAnotherTimeAreMovedToTheMiddleOne) {
   RowMotion rows;
   rows.readout = 1.0;
   rows.twist << 0.02, -0.01, 0.03, 0.01, 0.04, -0.02;
-  const cv::Mat raster = testing::rasterised(testing::waves(), camera.width, camera.height);
+  const cv::Mat raster = testing::rasterized(testing::waves(), camera.width, camera.height);
   const ReferencePoints still = makePoints(raster, camera, kPixels);
   const ReferencePoints moved = makePoints(raster, camera, kPixels, rows);
   for (std::size_t i = 0; i < still.size(); ++i) {
@@ -232,7 +232,7 @@ TEST(ReferencePointsTest, RowsReadAtAnotherTimeAreMovedToTheMiddleOne) {
 // A plane that comes nearer and moves sideways while the camera waits for its depth.
 TEST(ReferencePointsTest, DepthReadLaterIsMovedToTheTimeOfTheImage) {
   const Camera camera = analyticCamera();
-  const cv::Mat raster = testing::rasterised(testing::waves(), camera.width, camera.height);
+  const cv::Mat raster = testing::rasterized(testing::waves(), camera.width, camera.height);
   RowMotion rows;
   rows.twist << 0.06, 0.0, -0.2, 0.0, 0.0, 0.0;
   constexpr double kOffset = 0.5;
@@ -254,29 +254,29 @@ TEST(ReferencePointsTest, DepthReadLaterIsMovedToTheTimeOfTheImage) {
   }
 }
 
-// Mean and deviation alike everywhere: normalising takes the mean away, and the weighting by the
-// contrast gives grey levels back. Its gradients are smoothed across, those of the raw image are
+// Mean and deviation alike everywhere: normalizing takes the mean away, and the weighting by the
+// contrast gives gray levels back. Its gradients are smoothed across, those of the raw image are
 // not.
-TEST(ReferencePointsTest, NormalisedPointsAreInGreyLevelsAgain) {
+TEST(ReferencePointsTest, NormalizedPointsAreInGrayLevelsAgain) {
   const Camera camera = analyticCamera();
-  const cv::Mat raster = testing::rasterised(testing::waves(), camera.width, camera.height);
+  const cv::Mat raster = testing::rasterized(testing::waves(), camera.width, camera.height);
   ContrastMap map;
   map.pairs = cv::Mat(21, 26, CV_32FC2, cv::Scalar(100.0F, 24.0F));
   map.constant = 6.0F;
   const ReferencePoints raw = makePoints(raster, camera, kPixels);
-  ReferencePoints normalised;
-  normalised.pixels = kPixels;
-  makeReferencePoints({raster, &map}, {slopingDepthImage(camera)}, camera, {}, false, normalised);
+  ReferencePoints normalized;
+  normalized.pixels = kPixels;
+  makeReferencePoints({raster, &map}, {slopingDepthImage(camera)}, camera, {}, false, normalized);
   for (std::size_t i = 0; i < raw.size(); ++i) {
-    EXPECT_FLOAT_EQ(normalised.contrast[i], 30.0F);
-    EXPECT_NEAR(normalised.intensity[i], raw.intensity[i] - 100.0F, 1e-4);
-    EXPECT_LT(testing::relativeError(jacobianOf(normalised, i), jacobianOf(raw, i)), 0.01);
-    EXPECT_TRUE(normalised.second_derivative[0].empty());
+    EXPECT_FLOAT_EQ(normalized.contrast[i], 30.0F);
+    EXPECT_NEAR(normalized.intensity[i], raw.intensity[i] - 100.0F, 1e-4);
+    EXPECT_LT(testing::relativeError(jacobianOf(normalized, i), jacobianOf(raw, i)), 0.01);
+    EXPECT_TRUE(normalized.second_derivative[0].empty());
   }
 }
 
 // However sharp an edge is: what its gradient had along it would pass for texture.
-TEST(ReferencePointsTest, GradientsOfNormalisedImagesPointAcrossObliqueEdges) {
+TEST(ReferencePointsTest, GradientsOfNormalizedImagesPointAcrossObliqueEdges) {
   const Camera camera = analyticCamera();
   const Eigen::Vector2d across(std::cos(0.45), std::sin(0.45));
   cv::Mat raster(camera.height, camera.width, CV_8UC1);
@@ -326,7 +326,7 @@ TEST(ReferencePointsTest, DepthOfALaterTimeIsTakenWhereTheSurfaceIsThen) {
   }
   ReferencePoints points;
   points.pixels = kPixels;
-  const cv::Mat image = testing::rasterised(quadratic(), camera.width, camera.height);
+  const cv::Mat image = testing::rasterized(quadratic(), camera.width, camera.height);
   makeReferencePoints({image}, {depth, offset}, camera, RowMotion{twist, 0.0, 0.0}, false, points);
   double unmoved = 0.0;
   for (std::size_t i = 0; i < points.size(); ++i) {

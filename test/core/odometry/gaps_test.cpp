@@ -58,9 +58,9 @@ Frame coveredLens() {
 }
 
 /// An odometry that has followed the camera on its way.
-class Travelled {
+class Traveled {
  public:
-  Travelled() : odometry(testing::smallCamera(), {}) {
+  Traveled() : odometry(testing::smallCamera(), {}) {
     for (int i = 0; i < kMoving; ++i) odometry.process(stamped(view(i), stamp += kFramePeriod));
     last = odometry.result();
   }
@@ -74,7 +74,7 @@ class Travelled {
     return result;
   }
 
-  /// Of the last measured velocity, and a millimetre.
+  /// Of the last measured velocity, and a millimeter.
   double most() const { return kHorizon * last.velocity.head<3>().norm() + 1e-3; }
 
   double stamp = 10.0;
@@ -85,7 +85,7 @@ class Travelled {
 class GapsTest : public ::testing::TestWithParam<double> {};
 
 TEST_P(GapsTest, AfterAGapAnotherPlaceIsNoPoseFarAway) {
-  Travelled camera;
+  Traveled camera;
   ASSERT_EQ(camera.last.state, TrackingState::kTracking);
   ASSERT_NEAR(camera.last.velocity[0], kSpeed, 0.05);
   EXPECT_EQ(camera.process(anotherPlace(), GetParam()).state, TrackingState::kLost);
@@ -97,7 +97,7 @@ TEST_P(GapsTest, AfterAGapAnotherPlaceIsNoPoseFarAway) {
 }
 
 TEST_P(GapsTest, AfterAGapTheSamePlaceIsFound) {
-  Travelled camera;
+  Traveled camera;
   const TrackingResult& result = camera.process(view(kMoving - 1), GetParam());
   EXPECT_EQ(result.state, TrackingState::kTracking);
   EXPECT_EQ(result.segment, 0);
@@ -113,7 +113,7 @@ INSTANTIATE_TEST_SUITE_P(Seconds, GapsTest, ::testing::Values(0.5, 2.0, 10.0, 60
 TEST(LostAfterAGapTest, TheLongerTheGapTheLessIsKnown) {
   double before = 0.0;
   for (const double gap : {kFramePeriod, 0.5, 2.0, 10.0, 60.0, 600.0}) {
-    Travelled camera;
+    Traveled camera;
     const double sigma = std::sqrt(camera.process(anotherPlace(), gap).covariance(0, 0));
     EXPECT_GT(sigma, before) << gap;
     EXPECT_GT(sigma, 0.5 * kSpeed * gap) << gap;
@@ -130,7 +130,7 @@ class CoveredLensTest : public ::testing::TestWithParam<Change> {};
 
 // Keyframes of other parameters are of no use, but a new one may not begin anywhere.
 TEST_P(CoveredLensTest, ParametersThatChangeBehindItMoveNothing) {
-  Travelled camera;
+  Traveled camera;
   const int keyframes = camera.odometry.result().keyframes;
   for (int i = 0; i < 10; ++i) camera.process(coveredLens(), kFramePeriod);
   Parameters parameters = camera.odometry.parameters();
@@ -153,7 +153,7 @@ TEST_P(CoveredLensTest, ParametersThatChangeBehindItMoveNothing) {
 }
 
 TEST_P(CoveredLensTest, AnotherPlaceAfterwardsIsAnotherSegment) {
-  Travelled camera;
+  Traveled camera;
   camera.process(coveredLens(), kFramePeriod);
   Parameters parameters = camera.odometry.parameters();
   GetParam().apply(parameters);

@@ -229,7 +229,7 @@ TEST(OdometryTest, CovarianceIsSymmetricAndPositiveDefinite) {
     EXPECT_GT(Eigen::SelfAdjointEigenSolver<Matrix6>(result.covariance).eigenvalues().minCoeff(),
               0.0);
   }
-  // Of a tracked frame: better than a centimetre, no better than a micrometre.
+  // Of a tracked frame: better than a centimeter, no better than a micrometer.
   const double deviation = std::sqrt(odometry.result().covariance(0, 0));
   EXPECT_LT(deviation, 0.01);
   EXPECT_GT(deviation, 1e-6);

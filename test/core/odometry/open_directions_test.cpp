@@ -52,7 +52,7 @@ void expectHonest(const TrackingResult& result, double x, int frame) {
   }
 }
 
-/// It slides along the stripes, and is off by less than a few millimetres in what is seen.
+/// It slides along the stripes, and is off by less than a few millimeters in what is seen.
 void slideAlongStripes(const Parameters& parameters) {
   const Camera camera = testing::smallCamera();
   const Wall wall{testing::horizontalStripes};
@@ -84,7 +84,7 @@ TEST(OpenDirectionsTest, AlongStripesTheMethodOfThePaperSaysSoToo) {
 TEST(OpenDirectionsTest, LittleTextureOnTheStripesIsEnough) {
   const Camera camera = testing::smallCamera();
   const Wall wall{[](double x, double y) {
-    // Of 1.5 grey levels, eight pixels long.
+    // Of 1.5 gray levels, eight pixels long.
     return testing::stripes(y) +
            1.5 * (std::sin(52.0 * x + 8.0 * y) + std::sin(45.0 * x - 9.0 * y));
   }};

@@ -152,7 +152,7 @@ TEST_P(TrackingLossTest, AFrameWithoutDepthIsNoFirstKeyframe) {
   Frame frame = walk().frames[0];
   frame.depth = cv::Mat::zeros(frame.depth.size(), CV_32FC1);
   const TrackingResult& result = odometry.process(frame);
-  EXPECT_EQ(result.state, TrackingState::kInitialising);
+  EXPECT_EQ(result.state, TrackingState::kInitializing);
   EXPECT_EQ(result.reason, TrackingReason::kTooFewPoints);
   EXPECT_FALSE(odometry.hasKeyframe());
   EXPECT_EQ(odometry.process(walk().frames[1]).state, TrackingState::kTracking);
@@ -251,8 +251,8 @@ class AbsurdFrames {
       case 1:
         return filled<unsigned char>(CV_8UC1, [](int, int) { return 255; });
       case 2: {
-        const double grey = random_.uniform(0.0, 255.0);
-        return filled<unsigned char>(CV_8UC1, [=](int, int) { return grey; });
+        const double gray = random_.uniform(0.0, 255.0);
+        return filled<unsigned char>(CV_8UC1, [=](int, int) { return gray; });
       }
       case 3:
         return filled<unsigned char>(CV_8UC1,

@@ -27,7 +27,7 @@ Camera noiseCamera() {
   return camera;
 }
 
-/// Another one for each index, two metres away.
+/// Another one for each index, two meters away.
 Frame noise(int index) {
   const Camera camera = noiseCamera();
   testing::Random random(static_cast<std::uint64_t>(index) + 1);

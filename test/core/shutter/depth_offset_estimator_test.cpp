@@ -24,7 +24,7 @@ Vector6 sceneTwist(const Vector6& step) {
 }
 
 /// A camera that moves by steps a and b per frame period at two frames, with depth taken `offset`
-/// periods after colour.
+/// periods after color.
 class DepthOffsetTest : public ::testing::Test {
  protected:
   Frame film(const Eigen::Isometry3d& T_world_camera, const Vector6& step, double offset) const {
@@ -76,7 +76,7 @@ TEST_F(DepthOffsetTest, TheGradientIsThatOfTheGeometricTerm) {
         GeometricTerm term(points, 5000, live, warp, parameters);
         term.evaluate(pose);
         EXPECT_EQ(term.scale(), 1.0) << "costs of different scales cannot be compared";
-        return term.linearise(0);
+        return term.linearize(0);
       };
       const double numeric =
           (modelAt(offset + kStep).cost - modelAt(offset - kStep).cost) / (2.0 * kStep);

@@ -69,7 +69,7 @@ TEST_F(ShutterModelTest, NobodyIsToldWhatWasNotAskedFor) {
 
 constexpr int kFrames = 50;
 
-/// A shaken camera whose depth is taken `offset` s later than colour.
+/// A shaken camera whose depth is taken `offset` s later than color.
 std::vector<Frame> filmShaken(double offset) {
   const auto poseAt = [](double t) {
     Vector6 d;

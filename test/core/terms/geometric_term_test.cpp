@@ -139,7 +139,7 @@ TEST_F(GeometricTermTest, CostAndGradientAreThoseOfItsDefinition) {
     const Eigen::Isometry3d T = random.pose(0.02, 0.01) * truth_;
     GeometricTerm geometry = term();
     const double value = geometry.evaluate(T);
-    const QuadraticModel model = geometry.linearise(0);
+    const QuadraticModel model = geometry.linearize(0);
     EXPECT_EQ(model.cost, value);
     const std::vector<Measured> points = measured(T);
     // Which pixel a point falls on is a matter of rounding for a few.
@@ -156,7 +156,7 @@ TEST_F(GeometricTermTest, CostAndGradientAreThoseOfItsDefinition) {
 TEST_F(GeometricTermTest, NearTheTruthTheHessianIsTheTrueOne) {
   GeometricTerm geometry = term();
   geometry.evaluate(truth_);
-  const QuadraticModel model = geometry.linearise(0);
+  const QuadraticModel model = geometry.linearize(0);
   const std::vector<Measured> points = measured(truth_);
   const auto definition = [&](const Vector6& d) { return cost(points, geometry.scale(), d); };
   EXPECT_LT(testing::relativeError(model.hessian,
@@ -190,10 +190,10 @@ TEST_F(GeometricTermTest, WithoutLiveDepthNothingIsVisible) {
   EXPECT_EQ(geometry.numVisible(), 0U);
 }
 
-TEST_F(GeometricTermTest, MillimetresAndMetresGiveTheSameCost) {
-  GeometricTerm metres = term();
+TEST_F(GeometricTermTest, MillimetersAndMetersGiveTheSameCost) {
+  GeometricTerm meters = term();
   const Eigen::Isometry3d T = Random(6).pose(0.02, 0.01) * truth_;
-  const double expected = metres.evaluate(T);
+  const double expected = meters.evaluate(T);
   cv::Mat raw(live_frame_.depth.size(), CV_16UC1);
   live_frame_.depth.convertTo(raw, CV_16U, 10000.0);
   live_frame_.depth = raw;

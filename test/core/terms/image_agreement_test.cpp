@@ -45,7 +45,7 @@ class ImageAgreementTest : public ::testing::Test {
 };
 
 TEST_F(ImageAgreementTest, TheSameImageAgrees) {
-  const cv::Mat same = testing::rasterised(testing::waves(), camera_.width, camera_.height);
+  const cv::Mat same = testing::rasterized(testing::waves(), camera_.width, camera_.height);
   const Agreement agreement = agreementWith(same, Eigen::Isometry3d::Identity());
   EXPECT_EQ(agreement.points, static_cast<int>(points_.size()));
   // Central differences over two pixels are a few percent less steep than waves of thirty.
@@ -55,7 +55,7 @@ TEST_F(ImageAgreementTest, TheSameImageAgrees) {
 
 TEST_F(ImageAgreementTest, LiveDerivativesAreThoseOfTheWarpedLiveImage) {
   const testing::AnalyticImage image = testing::litWaves();
-  const cv::Mat live = testing::rasterised(image, camera_.width, camera_.height);
+  const cv::Mat live = testing::rasterized(image, camera_.width, camera_.height);
   Random random(4);
   for (int trial = 0; trial < 3; ++trial) {
     const Eigen::Isometry3d T = random.pose(0.1, 0.1);
@@ -84,13 +84,13 @@ TEST_F(ImageAgreementTest, LiveDerivativesAreThoseOfTheWarpedLiveImage) {
 
 TEST_F(ImageAgreementTest, ANegativeDisagreesAlikeInAllDirections) {
   const cv::Mat negative =
-      200.0 - testing::rasterised(testing::waves(), camera_.width, camera_.height);
+      200.0 - testing::rasterized(testing::waves(), camera_.width, camera_.height);
   const Agreement agreement = agreementWith(negative, Eigen::Isometry3d::Identity());
   EXPECT_LT(relativeError(Matrix6(-agreement.both), agreement.keyframe), 0.05);
 }
 
 TEST_F(ImageAgreementTest, FewerPointsAreSpreadOverAll) {
-  const cv::Mat same = testing::rasterised(testing::waves(), camera_.width, camera_.height);
+  const cv::Mat same = testing::rasterized(testing::waves(), camera_.width, camera_.height);
   const Agreement all = agreementWith(same, Eigen::Isometry3d::Identity());
   const Agreement some = agreementWith(same, Eigen::Isometry3d::Identity(), points_.size() / 3);
   EXPECT_NEAR(some.points, all.points / 3, all.points / 30);
@@ -98,7 +98,7 @@ TEST_F(ImageAgreementTest, FewerPointsAreSpreadOverAll) {
 }
 
 TEST_F(ImageAgreementTest, HiddenPointsDoNotCount) {
-  const cv::Mat same = testing::rasterised(testing::waves(), camera_.width, camera_.height);
+  const cv::Mat same = testing::rasterized(testing::waves(), camera_.width, camera_.height);
   LiveSamples samples;
   const Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
   warp_.sample(points_, points_.size(), T, same, samples);
@@ -127,7 +127,7 @@ TEST_F(ImageAgreementTest, AnotherNoiseDoesNotAgreeInAnyDirection) {
     for (int axis = 0; axis < 6; ++axis) {
       EXPECT_LT(largestCorrelation(other, {axis}), 6.0 / std::sqrt(other.points)) << seed;
     }
-    // The worst of all directions, and neighbours share pixels, whose noise then counts twice.
+    // The worst of all directions, and neighbors share pixels, whose noise then counts twice.
     EXPECT_LT(largestCorrelation(other, {0, 1, 2, 3, 4, 5}), 10.0 / std::sqrt(other.points))
         << seed;
     // Its own noise would: that is why the keyframe alone cannot tell.

@@ -45,7 +45,7 @@ JointHistogram histogramOf(const Axis& reference, const Axis& live, int num_bins
     histogram.add(reference_binning(static_cast<float>(reference.values[i])),
                   live_binning(static_cast<float>(live.values[i])));
   }
-  histogram.normalise(reference.values.size());
+  histogram.normalize(reference.values.size());
   return histogram;
 }
 
@@ -160,7 +160,7 @@ TEST(JointHistogramTest, PartsAddUpAndClearForgets) {
                                   l(static_cast<float>(live.values[i])));
   }
   parts[0].add(parts[1]);
-  parts[0].normalise(n);
+  parts[0].normalize(n);
   EXPECT_NEAR(parts[0].mutualInformation(), histogramOf(reference, live, 8).mutualInformation(),
               1e-12);
 }
@@ -168,14 +168,14 @@ TEST(JointHistogramTest, PartsAddUpAndClearForgets) {
 TEST(JointHistogramTest, NoPairsAtAllAreNoInformation) {
   JointHistogram histogram(8);
   histogram.clear();
-  histogram.normalise(0);
+  histogram.normalize(0);
   EXPECT_EQ(histogram.mutualInformation(), 0.0);
   EXPECT_EQ(histogram.referenceMarginal(3), 0.0);
 }
 
 TEST(BinningTest, TheRangeFillsTheBinsAndTheRestIsClamped) {
   const Binning binning({50.0F, 120.0F}, 8);
-  EXPECT_FLOAT_EQ(binning.binsPerGreyLevel(), 0.1F);
+  EXPECT_FLOAT_EQ(binning.binsPerGrayLevel(), 0.1F);
   const BinPosition middle = binning(73.0F);
   EXPECT_EQ(middle.bin, 2);
   EXPECT_NEAR(middle.fraction, 0.3F, 1e-5);

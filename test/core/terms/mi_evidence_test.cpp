@@ -22,7 +22,7 @@ constexpr double kSignificant = 18.0;
 
 using Pair = std::pair<double, double>;
 
-/// Evidence of so many pairs of grey levels; the range is that of all but one in two hundred.
+/// Evidence of so many pairs of gray levels; the range is that of all but one in two hundred.
 MiEvidence evidenceOf(const std::function<Pair()>& draw, const IntensityRange& range,
                       std::size_t points, int bins) {
   const Binning binning(range, bins);
@@ -32,7 +32,7 @@ MiEvidence evidenceOf(const std::function<Pair()>& draw, const IntensityRange& r
     const auto [reference, live] = draw();
     histogram.add(binning(static_cast<float>(reference)), binning(static_cast<float>(live)));
   }
-  histogram.normalise(points);
+  histogram.normalize(points);
   return miEvidence(histogram.mutualInformation(), points, bins);
 }
 
@@ -41,7 +41,7 @@ MiEvidence unrelatedUniform(Random& random, std::size_t points, int bins) {
   return evidenceOf(draw, {0.0F, 255.0F}, points, bins);
 }
 
-/// Of grey levels 128 +- 40 with a correlation.
+/// Of gray levels 128 +- 40 with a correlation.
 MiEvidence correlatedNormal(Random& random, double correlation, std::size_t points, int bins) {
   const auto draw = [&] {
     const double a = random.normal();

@@ -18,7 +18,7 @@ using testing::analyticCamera;
 using testing::AnalyticImage;
 using testing::Random;
 
-/// A keyframe and a live image, and the grey levels that fill the bins of each.
+/// A keyframe and a live image, and the gray levels that fill the bins of each.
 struct Pair {
   const char* name;
   AnalyticImage reference;
@@ -46,7 +46,7 @@ class Problem {
       : pair_(pair),
         parameters_(parameters),
         points_(testing::analyticPoints(pair.reference, camera_, step)),
-        live_image_(testing::rasterised(pair.live, camera_.width, camera_.height)),
+        live_image_(testing::rasterized(pair.live, camera_.width, camera_.height)),
         reference_(makeMiReference(points_, pair.reference_range, parameters)),
         warp_(camera_, {}, 1),
         term_(points_, reference_, live_image_, pair.live_range, warp_, parameters) {}
@@ -124,7 +124,7 @@ TEST(MiTermTest, GradientAgreesWithDifferencesOfTheDefinition) {
     for (int trial = 0; trial < 3; ++trial) {
       Problem problem(pair, {});
       problem.evaluate(random.pose(0.04, 0.03));
-      const Vector6 gradient = problem.term_.linearise(0).gradient;
+      const Vector6 gradient = problem.term_.linearize(0).gradient;
       EXPECT_TRUE(testing::convergesTo(
           gradient, [&](double step) { return problem.numericGradient(step); }, 1e-3, 2e-4))
           << pair.name << "\nanalytic " << gradient.transpose() << "\nnumeric  "
@@ -139,7 +139,7 @@ TEST(MiTermTest, FullHessianAgreesWithDifferencesOfTheDefinition) {
     for (int trial = 0; trial < 2; ++trial) {
       Problem problem(pair, {});
       problem.evaluate(random.pose(0.04, 0.03));
-      const Matrix6 hessian = problem.term_.linearise(0).hessian;
+      const Matrix6 hessian = problem.term_.linearize(0).hessian;
       EXPECT_LT(testing::relativeError(hessian, problem.numericHessian(1e-4)), 2e-3)
           << pair.name << "\nanalytic\n"
           << hessian << "\nnumeric\n"
@@ -158,7 +158,7 @@ TEST(MiTermTest, ClampedIntensitiesDoNotMove) {
       std::count(problem.reference_.unclamped.begin(), problem.reference_.unclamped.end(), 0.0F);
   ASSERT_GT(num_clamped, 50);
   EXPECT_LT(
-      testing::relativeError(problem.term_.linearise(0).gradient, problem.numericGradient(1e-6)),
+      testing::relativeError(problem.term_.linearize(0).gradient, problem.numericGradient(1e-6)),
       2e-3);
 }
 
@@ -167,7 +167,7 @@ TEST(MiTermTest, TheModelsCostIsThatOfTheLastEvaluationToTheBit) {
   Problem problem(asymmetricPairs()[2], {});
   for (int trial = 0; trial < 3; ++trial) {
     const double cost = problem.evaluate(random.pose(0.03, 0.03));
-    EXPECT_EQ(problem.term_.linearise(trial).cost, cost);
+    EXPECT_EQ(problem.term_.linearize(trial).cost, cost);
   }
 }
 
@@ -179,7 +179,7 @@ Pair selfPair() {
 TEST(MiTermTest, SelfAlignmentIsAMinimumOfTheCost) {
   Problem problem(selfPair(), {});
   const double aligned = problem.evaluate(Eigen::Isometry3d::Identity());
-  const QuadraticModel model = problem.term_.linearise(0);
+  const QuadraticModel model = problem.term_.linearize(0);
   EXPECT_LT(testing::relativeError(model.hessian, problem.numericHessian(1e-4)), 2e-3);
   const Eigen::SelfAdjointEigenSolver<Matrix6> solver(model.hessian);
   EXPECT_GT(solver.eigenvalues().minCoeff(), 0.0);
@@ -217,7 +217,7 @@ TEST(MiTermTest, WithoutTheWindowsSecondDerivativeTheHessianHasTheWrongSign) {
     }
   }
   const Matrix6 of_cost = -static_cast<double>(problem.points_.size()) * first_order;
-  const Matrix6 full = problem.term_.linearise(0).hessian;
+  const Matrix6 full = problem.term_.linearize(0).hessian;
   for (int k = 0; k < 6; ++k) {
     EXPECT_LT(of_cost(k, k), 0.0);
     EXPECT_GT(full(k, k), 0.0);
@@ -231,10 +231,10 @@ TEST(MiTermTest, TheHessianOfTheReferenceIsTheFullOneOfItsSelfAlignment) {
   Problem reference(selfPair(), constant);
   full.evaluate(Eigen::Isometry3d::Identity());
   reference.evaluate(Random(7).pose(0.05, 0.05));
-  const Matrix6 expected = full.term_.linearise(0).hessian;
-  EXPECT_LT(testing::relativeError(reference.term_.linearise(0).hessian, expected), 1e-3);
+  const Matrix6 expected = full.term_.linearize(0).hessian;
+  EXPECT_LT(testing::relativeError(reference.term_.linearize(0).hessian, expected), 1e-3);
   // The gradient is still that of the pose.
-  EXPECT_LT(testing::relativeError(reference.term_.linearise(0).gradient,
+  EXPECT_LT(testing::relativeError(reference.term_.linearize(0).gradient,
                                    reference.numericGradient(1e-5)),
             1e-3);
 }
@@ -245,8 +245,8 @@ TEST(MiTermTest, NothingInViewIsAnInfiniteCost) {
             std::numeric_limits<double>::infinity());
   EXPECT_EQ(problem.term_.numVisible(), 0U);
   EXPECT_EQ(problem.term_.mutualInformation(), 0.0);
-  EXPECT_TRUE(problem.term_.linearise(0).gradient.allFinite());
-  EXPECT_TRUE(problem.term_.linearise(0).hessian.allFinite());
+  EXPECT_TRUE(problem.term_.linearize(0).gradient.allFinite());
+  EXPECT_TRUE(problem.term_.linearize(0).hessian.allFinite());
 }
 
 TEST(MiTermTest, TheNumberOfThreadsDoesNotChangeABit) {
@@ -257,8 +257,8 @@ TEST(MiTermTest, TheNumberOfThreadsDoesNotChangeABit) {
   Problem four(asymmetricPairs()[1], threaded, 1);
   ASSERT_GT(one.points_.size(), 2U * 2048U);
   EXPECT_EQ(one.term_.evaluate(T), four.term_.evaluate(T));
-  const QuadraticModel a = one.term_.linearise(0);
-  const QuadraticModel b = four.term_.linearise(0);
+  const QuadraticModel a = one.term_.linearize(0);
+  const QuadraticModel b = four.term_.linearize(0);
   EXPECT_EQ(a.gradient, b.gradient);
   EXPECT_EQ(a.hessian, b.hessian);
 }

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "core/alignment/minimise.h"
+#include "core/alignment/minimize.h"
 #include "core/alignment/pose_covariance.h"
 #include "support/numeric_derivative.h"
 #include "support/random_pose.h"
@@ -37,14 +37,14 @@ TEST(MotionPriorTermTest, GradientAndHessianAreThoseOfTheCost) {
     const auto cost = [&](const Vector6& d) { return prior.evaluate(moved(at, d)); };
     const Vector6 gradient = testing::numericGradient<6>(cost, Vector6::Zero(), 1e-6);
     const double cost_there = prior.evaluate(at);
-    const QuadraticModel model = prior.linearise(0);
+    const QuadraticModel model = prior.linearize(0);
     EXPECT_NEAR(model.cost, cost_there, 1e-12);
     EXPECT_LT(testing::relativeError(model.gradient, gradient), 1e-5);
     // The approximation of Gauss and Newton is exact where the error is nought.
     const auto there = [&](const Vector6& d) { return prior.evaluate(moved(predicted, d)); };
     const Matrix6 hessian = testing::numericHessian<6>(there, Vector6::Zero(), 1e-4);
     prior.evaluate(predicted);
-    EXPECT_LT(testing::relativeError(prior.linearise(0).hessian, hessian), 1e-4);
+    EXPECT_LT(testing::relativeError(prior.linearize(0).hessian, hessian), 1e-4);
   }
 }
 
@@ -54,7 +54,7 @@ TEST(MotionPriorTermTest, LeftToItselfTheCameraKeepsItsVelocity) {
   Parameters parameters;
   parameters.alignment.min_step_pixels = 1e-4;
   const Matrix6 pixel_motion = 1e5 * Matrix6::Identity();
-  const Minimum minimum = minimise({&prior}, Random(5).pose(0.01, 0.01) * predicted, 1.0,
+  const Minimum minimum = minimize({&prior}, Random(5).pose(0.01, 0.01) * predicted, 1.0,
                                    pixel_motion, parameters, 1.0, 0.0);
   EXPECT_LT(localCoordinates(minimum.T_live_ref * predicted.inverse()).norm(), 1e-5);
 }

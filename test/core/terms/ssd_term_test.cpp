@@ -47,7 +47,7 @@ class SsdTermTest : public ::testing::Test {
  protected:
   explicit SsdTermTest(int step = 3)
       : points_(testing::analyticPoints(reference_, camera_, step)),
-        live_(testing::rasterised(testing::litWaves(), camera_.width, camera_.height)) {}
+        live_(testing::rasterized(testing::litWaves(), camera_.width, camera_.height)) {}
 
   SsdTerm term(RobustWeight kind, int threads = 1) {
     Parameters parameters;
@@ -103,7 +103,7 @@ TEST_F(SsdTermTest, CostAndGradientAreThoseOfItsDefinition) {
       SsdTerm ssd = term(kind);
       const double cost = ssd.evaluate(random.pose(0.03, 0.02));
       ASSERT_TRUE(ssd.isSignificant());
-      const QuadraticModel model = ssd.linearise(0);
+      const QuadraticModel model = ssd.linearize(0);
       const auto definition = [&](const Vector6& d) { return bruteForceCost(ssd, kind, d); };
       EXPECT_NEAR(cost / definition(Vector6::Zero()), 1.0, 1e-5);
       EXPECT_TRUE(testing::convergesTo(
@@ -122,17 +122,17 @@ TEST_F(SsdTermTest, HessianIsThatOfGaussAndNewton) {
   for (const RobustWeight kind : kKinds) {
     SsdTerm ssd = term(kind);
     ssd.evaluate(Random(2).pose(0.03, 0.02));
-    const QuadraticModel model = ssd.linearise(0);
+    const QuadraticModel model = ssd.linearize(0);
     EXPECT_LT(testing::relativeError(model.hessian, bruteForceHessian(ssd, kind)), 1e-3);
     EXPECT_EQ(model.hessian, model.hessian.transpose());
   }
 }
 
 TEST_F(SsdTermTest, WithoutResidualsTheHessianIsTheTrueOne) {
-  live_ = testing::rasterised(reference_, camera_.width, camera_.height);
+  live_ = testing::rasterized(reference_, camera_.width, camera_.height);
   SsdTerm ssd = term(RobustWeight::kNone);
   ssd.evaluate(Eigen::Isometry3d::Identity());
-  const QuadraticModel model = ssd.linearise(0);
+  const QuadraticModel model = ssd.linearize(0);
   const auto definition = [&](const Vector6& d) {
     return bruteForceCost(ssd, RobustWeight::kNone, d);
   };
@@ -148,7 +148,7 @@ TEST_F(SsdTermTest, TheModelsCostIsThatOfTheLastEvaluationToTheBit) {
     SsdTerm ssd = term(kind);
     for (int trial = 0; trial < 3; ++trial) {
       const double cost = ssd.evaluate(random.pose(0.02, 0.02));
-      EXPECT_EQ(ssd.linearise(trial == 0 ? 0 : 50).cost, cost);
+      EXPECT_EQ(ssd.linearize(trial == 0 ? 0 : 50).cost, cost);
     }
   }
 }
@@ -171,10 +171,10 @@ TEST_F(SsdTermTest, TheScaleIsEstimatedInTheFirstIterationsAndThenKept) {
   ssd.evaluate(random.pose(0.04, 0.03));
   const double first = ssd.scale();
   EXPECT_NEAR(first, medianScale(ssd), first / 64.0);
-  ssd.linearise(0);
+  ssd.linearize(0);
   ssd.evaluate(random.pose(0.01, 0.01));
   EXPECT_EQ(ssd.scale(), first);
-  const QuadraticModel model = ssd.linearise(1);
+  const QuadraticModel model = ssd.linearize(1);
   EXPECT_NEAR(ssd.scale(), medianScale(ssd), ssd.scale() / 64.0);
   EXPECT_NE(ssd.scale(), first);
   // The cost returned with the new scale is the one that later costs are compared with.
@@ -182,12 +182,12 @@ TEST_F(SsdTermTest, TheScaleIsEstimatedInTheFirstIterationsAndThenKept) {
               1e-4 * model.cost);
   const double kept = ssd.scale();
   ssd.evaluate(random.pose(0.05, 0.05));
-  ssd.linearise(3);
+  ssd.linearize(3);
   EXPECT_EQ(ssd.scale(), kept);
 }
 
 TEST_F(SsdTermTest, TheScaleIsNeverBelowTheRoundingOfTheImage) {
-  live_ = testing::rasterised(reference_, camera_.width, camera_.height);
+  live_ = testing::rasterized(reference_, camera_.width, camera_.height);
   SsdTerm ssd = term(RobustWeight::kTukey);
   ssd.evaluate(Eigen::Isometry3d::Identity());
   EXPECT_EQ(ssd.scale(), Parameters().ssd.min_residual_scale);
@@ -217,7 +217,7 @@ TEST_F(SsdTermTest, CorrelationTellsRelatedImagesFromOthers) {
   EXPECT_GT(related.correlation(), 0.8);
   EXPECT_LE(related.correlation(), 1.0);
   EXPECT_TRUE(related.isSignificant());
-  live_ = testing::rasterised(testing::negativeOfWaves(), camera_.width, camera_.height);
+  live_ = testing::rasterized(testing::negativeOfWaves(), camera_.width, camera_.height);
   SsdTerm inverted = term(RobustWeight::kHuber);
   inverted.evaluate(Eigen::Isometry3d::Identity());
   EXPECT_LT(inverted.correlation(), -0.9);
@@ -226,7 +226,7 @@ TEST_F(SsdTermTest, CorrelationTellsRelatedImagesFromOthers) {
   SsdTerm covered = term(RobustWeight::kHuber);
   covered.evaluate(Eigen::Isometry3d::Identity());
   EXPECT_EQ(covered.correlation(), 0.0);
-  covered.linearise(0);
+  covered.linearize(0);
   EXPECT_FALSE(covered.isInformative());
 }
 
@@ -240,7 +240,7 @@ TEST_F(SsdTermTest, TheFirstPointsAreATermOfTheirOwn) {
   EXPECT_EQ(first.evaluate(T), same.evaluate(T));
   EXPECT_NE(first.evaluate(T), term(RobustWeight::kHuber).evaluate(T));
   EXPECT_LE(first.numVisible(), n);
-  EXPECT_EQ(first.linearise(0).hessian, same.linearise(0).hessian);
+  EXPECT_EQ(first.linearize(0).hessian, same.linearize(0).hessian);
   Matrix6 of_first;
   Matrix6 of_same;
   EXPECT_EQ(first.gradientCovariance(of_first), same.gradientCovariance(of_same));
@@ -258,8 +258,8 @@ TEST_F(LargeSsdTermTest, TheNumberOfThreadsDoesNotChangeABit) {
   SsdTerm one = term(RobustWeight::kHuber, 1);
   SsdTerm four = term(RobustWeight::kHuber, 4);
   EXPECT_EQ(one.evaluate(T), four.evaluate(T));
-  const QuadraticModel a = one.linearise(0);
-  const QuadraticModel b = four.linearise(0);
+  const QuadraticModel a = one.linearize(0);
+  const QuadraticModel b = four.linearize(0);
   EXPECT_EQ(a.gradient, b.gradient);
   EXPECT_EQ(a.hessian, b.hessian);
 }

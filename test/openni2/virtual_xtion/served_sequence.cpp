@@ -12,9 +12,9 @@
 namespace virtual_xtion {
 namespace {
 
-constexpr double kMaxTimeDifference = 0.02;  // s, between the colour and depth image of a pair
-constexpr double kMillimetresPerMetre = 1000.0;
-constexpr double kTenthsPerMetre = 10000.0;
+constexpr double kMaxTimeDifference = 0.02;  // s, between the color and depth image of a pair
+constexpr double kMillimetersPerMeter = 1000.0;
+constexpr double kTenthsPerMeter = 10000.0;
 constexpr double kLargestDepth = 65535.0;
 
 using Entry = std::pair<double, std::string>;
@@ -66,7 +66,7 @@ ServedSequence::ServedSequence(const std::string& folder) {
     }
   }
   if (paths_.empty()) {
-    throw std::runtime_error(folder + " has no pair of colour and depth");
+    throw std::runtime_error(folder + " has no pair of color and depth");
   }
   images_.resize(paths_.size());
   readCamera(folder + "/camera.txt");
@@ -86,7 +86,7 @@ void ServedSequence::readCamera(const std::string& path) {
     if (line.empty() || line.front() == '#') {
       continue;
     }
-    if (in >> width >> height >> fx >> fy >> cx >> cy >> units_per_metre_) {
+    if (in >> width >> height >> fx >> fy >> cx >> cy >> units_per_meter_) {
       horizontal_fov_ = 2.0 * std::atan(0.5 * width / fx);
       vertical_fov_ = 2.0 * std::atan(0.5 * height / fy);
       return;
@@ -105,8 +105,8 @@ const ServedSequence::Images& ServedSequence::images(std::size_t index) {
       throw std::runtime_error("cannot decode " + paths.color + " or " + paths.depth);
     }
     cv::cvtColor(color, images.color, cv::COLOR_BGR2RGB);
-    images.depth_millimetres = scaled(depth, kMillimetresPerMetre / units_per_metre_);
-    images.depth_tenths = scaled(depth, kTenthsPerMetre / units_per_metre_);
+    images.depth_millimeters = scaled(depth, kMillimetersPerMeter / units_per_meter_);
+    images.depth_tenths = scaled(depth, kTenthsPerMeter / units_per_meter_);
   }
   return images;
 }

@@ -8,7 +8,7 @@
 
 namespace virtual_xtion {
 
-/// The images of a sequence folder as the camera's sensors see them: RGB, and depth in millimetres
+/// The images of a sequence folder as the camera's sensors see them: RGB, and depth in millimeters
 /// and tenths of it.
 class ServedSequence {
  public:
@@ -19,7 +19,7 @@ class ServedSequence {
 
   struct Images {
     cv::Mat color;              ///< CV_8UC3, RGB
-    cv::Mat depth_millimetres;  ///< CV_16UC1
+    cv::Mat depth_millimeters;  ///< CV_16UC1
     cv::Mat depth_tenths;       ///< CV_16UC1, in 0.1 mm; what does not fit is 0
   };
   /// Decoded once, then kept.
@@ -37,7 +37,7 @@ class ServedSequence {
 
   std::vector<Paths> paths_;
   std::vector<Images> images_;
-  double units_per_metre_ = 0.0;
+  double units_per_meter_ = 0.0;
   double horizontal_fov_ = 0.0;
   double vertical_fov_ = 0.0;
 };

@@ -17,7 +17,7 @@ constexpr std::int64_t kMicrosecond = 1000;
 constexpr double kMillion = 1e6;
 // Depth that is not registered is seen from elsewhere: so many pixels to the side.
 constexpr int kUnregisteredShift = 8;
-// Streams that are not synchronised run at the same rate, out of step by this.
+// Streams that are not synchronized run at the same rate, out of step by this.
 constexpr std::int64_t kOutOfStep = 7000000;
 constexpr std::int64_t kSlice = 5000000;  // longest sleep, so that the control acts soon
 
@@ -115,7 +115,7 @@ OniStatus VirtualDevice::setProperty(int id, const void* data, int size) {
       return ONI_STATUS_BAD_PARAMETER;
     }
     std::memcpy(&on, data, sizeof(on));
-    synchronised_ = on != 0;
+    synchronized_ = on != 0;
     return ONI_STATUS_OK;
   }
   OniImageRegistrationMode mode{};
@@ -213,7 +213,7 @@ void VirtualDevice::take(std::int64_t tick, const Control& control) {
     if (!stream->isRunning() || (is_color ? control.color_stalls : control.depth_stalls)) {
       continue;
     }
-    const std::int64_t host = timeOf(tick) + (is_color || synchronised_ ? 0 : kOutOfStep);
+    const std::int64_t host = timeOf(tick) + (is_color || synchronized_ ? 0 : kOutOfStep);
     const std::uint64_t stamp = deviceTime(host, control);
     const double late = control.jitter * delay(random_) + (is_color ? 0.0 : control.depth_delay);
     last_frame_ = frame;
@@ -229,7 +229,7 @@ cv::Mat VirtualDevice::seen(OniSensorType sensor, VirtualStream& stream,
                             const ServedSequence::Images& images) {
   cv::Mat image = images.color;
   if (sensor == ONI_SENSOR_DEPTH) {
-    image = stream.isTenths() ? images.depth_tenths : images.depth_millimetres;
+    image = stream.isTenths() ? images.depth_tenths : images.depth_millimeters;
     if (!registered_) {
       cv::Mat shifted = cv::Mat::zeros(image.size(), image.type());
       image.colRange(kUnregisteredShift, image.cols)

@@ -49,7 +49,7 @@ class VirtualDevice : public oni::driver::DeviceBase {
   OniBool isImageRegistrationModeSupported(OniImageRegistrationMode mode) override;
 
   /// The camera forgets it when a stream starts or stops.
-  void resetSynchronisation() { synchronised_ = false; }
+  void resetSynchronization() { synchronized_ = false; }
 
  private:
   struct Delivery {
@@ -76,7 +76,7 @@ class VirtualDevice : public oni::driver::DeviceBase {
   std::vector<OniVideoMode> depth_modes_;
   std::vector<OniSensorInfo> sensors_;
   std::atomic<bool> registered_{false};
-  std::atomic<bool> synchronised_{false};
+  std::atomic<bool> synchronized_{false};
 
   std::mutex mutex_;  ///< guards streams_ and stop_
   std::condition_variable wake_;

@@ -86,7 +86,7 @@ class VirtualDriver : public oni::driver::DriverBase {
 
   void* enableFrameSync(oni::driver::StreamBase** /*streams*/, int /*count*/) override {
     // It has just freed, or is about to free, what images that are under way are handed to.
-    std::fputs("virtual_xtion: the SDK's own synchronisation is not safe while images come\n",
+    std::fputs("virtual_xtion: the SDK's own synchronization is not safe while images come\n",
                stderr);
     std::abort();
   }

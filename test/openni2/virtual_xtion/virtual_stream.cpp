@@ -13,7 +13,7 @@ namespace {
 // What the camera starts with, and what its automatic keeps setting.
 constexpr int kDefaultExposure = 33;
 constexpr int kDefaultGain = 100;
-constexpr int kMaxDepthMillimetres = 10000;
+constexpr int kMaxDepthMillimeters = 10000;
 
 template <typename Value>
 OniStatus give(const Value& value, void* data, int* size) {
@@ -50,7 +50,7 @@ VirtualStream::VirtualStream(VirtualDevice& device, OniSensorType sensor, const 
       gain_(kDefaultGain) {}
 
 OniStatus VirtualStream::start() {
-  device_.resetSynchronisation();
+  device_.resetSynchronization();
   const std::lock_guard<std::mutex> lock(mutex_);
   running_ = true;
   delivered_ = false;
@@ -63,7 +63,7 @@ OniStatus VirtualStream::start() {
 }
 
 void VirtualStream::stop() {
-  device_.resetSynchronisation();
+  device_.resetSynchronization();
   const std::lock_guard<std::mutex> delivery(delivery_);
   const std::lock_guard<std::mutex> lock(mutex_);
   running_ = false;
@@ -146,7 +146,7 @@ OniStatus VirtualStream::getProperty(int id, void* data, int* size) {
     case ONI_STREAM_PROPERTY_CROPPING:
       return give(cropping_, data, size);
     case ONI_STREAM_PROPERTY_MAX_VALUE:
-      return isColor() ? ONI_STATUS_NOT_SUPPORTED : give(kMaxDepthMillimetres, data, size);
+      return isColor() ? ONI_STATUS_NOT_SUPPORTED : give(kMaxDepthMillimeters, data, size);
     case ONI_STREAM_PROPERTY_MIN_VALUE:
       return isColor() ? ONI_STATUS_NOT_SUPPORTED : give(0, data, size);
     default:

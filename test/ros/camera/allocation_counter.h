@@ -5,7 +5,7 @@
 
 namespace mivo {
 
-/// Allocations by operator new, anywhere in this process, of the size of a colour image's pixels.
+/// Allocations by operator new, anywhere in this process, of the size of a color image's pixels.
 constexpr std::size_t kCountedBytes = 640 * 480 * 3;
 
 std::size_t countAllocations();

@@ -16,7 +16,7 @@ from virtual_camera import Control, Counter, Listener
 PATIENCE = 25  # s: the longest pause between two attempts is 8 s
 HEALTHY = {"present": 1, "in_use": 0, "no_permission": 0, "color": 1, "registration": 1, "rate": 30,
            "drop_every": 0, "depth_stalls": 0, "depth_delay": 0}
-MAX_PROCESSOR = 5.0  # per cent of a core while there is nothing to do but to wait
+MAX_PROCESSOR = 5.0  # percent of a core while there is nothing to do but to wait
 
 
 class FaultsTest(unittest.TestCase):
@@ -80,7 +80,7 @@ class FaultsTest(unittest.TestCase):
     def test_no_permission(self):
         self.break_and_mend({"no_permission": 1}, {"no_permission": 0}, "Install the udev rules")
 
-    def test_without_colour(self):
+    def test_without_color(self):
         self.break_and_mend({"color": 0}, {"color": 1}, "has no color stream",
                             "use a model with a color camera")
 

@@ -25,7 +25,7 @@ def pose_of(message):
 
 
 def difference(a, b):
-    """Distance in metres and angle in degrees."""
+    """Distance in meters and angle in degrees."""
     dot = abs(sum(x * y for x, y in zip(a[3:], b[3:])))
     return math.dist(a[:3], b[:3]), math.degrees(2.0 * math.acos(min(1.0, dot)))
 

@@ -35,7 +35,7 @@ class Control:
 
 
 class Truth:
-    """What the virtual camera took: host time and number of each colour image."""
+    """What the virtual camera took: host time and number of each color image."""
 
     def __init__(self, path):
         self.path = path

@@ -26,7 +26,7 @@ namespace mivo {
 namespace {
 
 constexpr int kImages = 300;
-constexpr double kMaxProcessor = 10.0;  // per cent of one core
+constexpr double kMaxProcessor = 10.0;  // percent of one core
 // From the images to the odometry, beyond the tracker's processor time: ms, of the tenth of the
 // frames that other work on the machine disturbs least. The whole of it is printed only.
 constexpr double kMaxOverhead = 1.0;

@@ -42,7 +42,7 @@ def read_lines(path):
 
 
 def difference(a, b):
-    """Distance in metres and angle in degrees of two (tx, ty, tz, qx, qy, qz, qw)."""
+    """Distance in meters and angle in degrees of two (tx, ty, tz, qx, qy, qz, qw)."""
     dot = abs(sum(x * y for x, y in zip(a[3:], b[3:])))
     norm = math.sqrt(sum(x * x for x in a[3:]) * sum(x * x for x in b[3:]))
     return math.dist(a[:3], b[:3]), math.degrees(2.0 * math.acos(min(1.0, dot / norm)))

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/alignment/minimise.h"
+#include "core/alignment/minimize.h"
 
 #include <gtest/gtest.h>
 
@@ -23,9 +23,9 @@ class ToyTerm : public CostTerm {
     return cost();
   }
 
-  QuadraticModel linearise(int iteration) override {
+  QuadraticModel linearize(int iteration) override {
     iterations_.push_back(iteration);
-    linearised_.push_back(T_);
+    linearized_.push_back(T_);
     return model();
   }
 
@@ -35,7 +35,7 @@ class ToyTerm : public CostTerm {
   Eigen::Isometry3d T_ = Eigen::Isometry3d::Identity();
   std::vector<double> costs_;
   std::vector<Eigen::Isometry3d> poses_;
-  std::vector<Eigen::Isometry3d> linearised_;
+  std::vector<Eigen::Isometry3d> linearized_;
   std::vector<int> iterations_;
 };
 
@@ -87,7 +87,7 @@ Eigen::Isometry3d at(double x) {
   return Eigen::Isometry3d(Eigen::Translation3d(x, 0.0, 0.0));
 }
 
-/// One metre moves the points by 100 pixels, one radian too.
+/// One meter moves the points by 100 pixels, one radian too.
 const Matrix6 kPixelMotion = 1e4 * Matrix6::Identity();
 
 Parameters freeParameters() {
@@ -99,43 +99,43 @@ Parameters freeParameters() {
   return parameters;
 }
 
-TEST(MinimiseTest, AQuadraticCostIsSolvedInOneStep) {
+TEST(MinimizeTest, AQuadraticCostIsSolvedInOneStep) {
   Eigen::Matrix3d A;
   A << 4.0, 1.0, 0.5, 1.0, 3.0, 0.2, 0.5, 0.2, 2.0;
   const Eigen::Vector3d goal(0.3, -0.2, 0.1);
   TranslationTerm term(A, goal);
   Parameters parameters = freeParameters();
   parameters.alignment.min_cost_change = 1e-12;
-  const Minimum minimum = minimise({&term}, at(0.0), 1.0, kPixelMotion, parameters);
+  const Minimum minimum = minimize({&term}, at(0.0), 1.0, kPixelMotion, parameters);
   EXPECT_LT((minimum.T_live_ref.translation() - goal).norm(), 1e-12);
   EXPECT_EQ(minimum.iterations, 1);
   EXPECT_NEAR(minimum.cost, 1.0, 1e-12);
   EXPECT_LT((minimum.hessian.topLeftCorner<3, 3>() - A).norm(), 1e-12);
 }
 
-TEST(MinimiseTest, TermsAreAddedUp) {
+TEST(MinimizeTest, TermsAreAddedUp) {
   TranslationTerm a(2.0 * Eigen::Matrix3d::Identity(), {0.3, 0.0, 0.0});
   TranslationTerm b(1.0 * Eigen::Matrix3d::Identity(), {0.0, 0.3, 0.0});
-  const Minimum minimum = minimise({&a, &b}, at(0.0), 1.0, kPixelMotion, freeParameters());
+  const Minimum minimum = minimize({&a, &b}, at(0.0), 1.0, kPixelMotion, freeParameters());
   EXPECT_LT((minimum.T_live_ref.translation() - Eigen::Vector3d(0.2, 0.1, 0.0)).norm(), 1e-12);
   EXPECT_NEAR(minimum.cost, a.cost() + b.cost(), 1e-15);
 }
 
-TEST(MinimiseTest, RotationsAreSolvedToo) {
+TEST(MinimizeTest, RotationsAreSolvedToo) {
   TranslationTerm term(Eigen::Matrix3d::Identity(), Eigen::Vector3d::Zero());
   const Eigen::Isometry3d start = retract((Vector6() << 0, 0, 0, 0.1, -0.2, 0.15).finished());
-  const Minimum minimum = minimise({&term}, start, 1.0, kPixelMotion, freeParameters());
+  const Minimum minimum = minimize({&term}, start, 1.0, kPixelMotion, freeParameters());
   EXPECT_LT((minimum.T_live_ref.matrix() - Eigen::Matrix4d::Identity()).norm(), 1e-9);
 }
 
-TEST(MinimiseTest, TheTermsAreLeftAtThePoseThatIsReturned) {
+TEST(MinimizeTest, TheTermsAreLeftAtThePoseThatIsReturned) {
   Parameters parameters = freeParameters();
   LineTerm wells([](double x) { return std::cos(8.0 * x); },
                  [](double x) { return -8.0 * std::sin(8.0 * x); },
                  [](double x) { return -64.0 * std::cos(8.0 * x); });
   for (const int max_iterations : {1, 2, 3, 10}) {
     parameters.alignment.max_iterations = max_iterations;
-    const Minimum minimum = minimise({&wells}, at(0.1), 1.0, kPixelMotion, parameters);
+    const Minimum minimum = minimize({&wells}, at(0.1), 1.0, kPixelMotion, parameters);
     EXPECT_EQ(wells.T_.matrix(), minimum.T_live_ref.matrix());
     EXPECT_EQ(minimum.cost, wells.cost());
     EXPECT_LE(minimum.iterations, max_iterations);
@@ -143,14 +143,14 @@ TEST(MinimiseTest, TheTermsAreLeftAtThePoseThatIsReturned) {
 }
 
 // Starts beside a maximum, where the curvature has the wrong sign: the guard turns it round.
-TEST(MinimiseTest, TheCostNeverRisesAndTheStepLeavesAMaximum) {
+TEST(MinimizeTest, TheCostNeverRisesAndTheStepLeavesAMaximum) {
   LineTerm wells([](double x) { return 2.0 + std::cos(8.0 * x); },
                  [](double x) { return -8.0 * std::sin(8.0 * x); },
                  [](double x) { return -64.0 * std::cos(8.0 * x); });
-  const Minimum minimum = minimise({&wells}, at(0.05), 1.0, kPixelMotion, freeParameters());
+  const Minimum minimum = minimize({&wells}, at(0.05), 1.0, kPixelMotion, freeParameters());
   EXPECT_NEAR(minimum.cost, 1.0, 1e-9);
   double before = std::numeric_limits<double>::infinity();
-  for (const Eigen::Isometry3d& T : wells.linearised_) {
+  for (const Eigen::Isometry3d& T : wells.linearized_) {
     const double cost = 2.0 + std::cos(8.0 * T.translation().x());
     EXPECT_LT(cost, before);
     before = cost;
@@ -162,47 +162,47 @@ TEST(MinimiseTest, TheCostNeverRisesAndTheStepLeavesAMaximum) {
 }
 
 // sqrt(1 + x^2) from far out: a full Newton step goes to -x^3, further away.
-TEST(MinimiseTest, AStepThatOvershootsIsHalved) {
+TEST(MinimizeTest, AStepThatOvershootsIsHalved) {
   LineTerm valley([](double x) { return std::sqrt(1.0 + x * x); },
                   [](double x) { return x / std::sqrt(1.0 + x * x); },
                   [](double x) { return std::pow(1.0 + x * x, -1.5); });
   Parameters parameters = freeParameters();
   const Matrix6 small_motion = Matrix6::Identity();
   parameters.alignment.min_step_pixels = 1e-4;
-  const Minimum minimum = minimise({&valley}, at(2.0), 1.0, small_motion, parameters);
+  const Minimum minimum = minimize({&valley}, at(2.0), 1.0, small_motion, parameters);
   EXPECT_NEAR(minimum.T_live_ref.translation().x(), 0.0, 1e-3);
   EXPECT_GT(minimum.evaluations, minimum.iterations + 1);
 }
 
-TEST(MinimiseTest, ATermThatNeverImprovesStopsAtOnceWhereItStarted) {
+TEST(MinimizeTest, ATermThatNeverImprovesStopsAtOnceWhereItStarted) {
   // Promises a descent that is not there.
   LineTerm liar([](double x) { return 5.0 + std::abs(x - 0.2); }, [](double) { return 1.0; },
                 [](double) { return 100.0; });
   Parameters parameters = freeParameters();
   parameters.alignment.line_search_halvings = 6;
-  const Minimum minimum = minimise({&liar}, at(0.2), 1.0, kPixelMotion, parameters);
+  const Minimum minimum = minimize({&liar}, at(0.2), 1.0, kPixelMotion, parameters);
   EXPECT_EQ(minimum.T_live_ref.translation().x(), 0.2);
   EXPECT_EQ(minimum.cost, 5.0);
   EXPECT_EQ(minimum.iterations, 0);
-  EXPECT_EQ(liar.linearised_.size(), 1U);
+  EXPECT_EQ(liar.linearized_.size(), 1U);
   EXPECT_LE(liar.costs_.size(), 1U + 7U + 1U);
 }
 
-TEST(MinimiseTest, NoStepIsLongerThanTheLimit) {
+TEST(MinimizeTest, NoStepIsLongerThanTheLimit) {
   TranslationTerm term(Eigen::Matrix3d::Identity(), {1.0, 0.0, 0.0});
   Parameters parameters = freeParameters();
   parameters.alignment.max_step_pixels = 5.0;  // 5 cm
-  const Minimum minimum = minimise({&term}, at(0.0), 1.0, kPixelMotion, parameters);
-  ASSERT_GT(term.linearised_.size(), 10U);
-  for (std::size_t i = 1; i < term.linearised_.size(); ++i) {
+  const Minimum minimum = minimize({&term}, at(0.0), 1.0, kPixelMotion, parameters);
+  ASSERT_GT(term.linearized_.size(), 10U);
+  for (std::size_t i = 1; i < term.linearized_.size(); ++i) {
     const double step =
-        (term.linearised_[i].translation() - term.linearised_[i - 1].translation()).norm();
+        (term.linearized_[i].translation() - term.linearized_[i - 1].translation()).norm();
     EXPECT_LE(step, 0.05 * (1.0 + 1e-9));
   }
   EXPECT_NEAR(minimum.T_live_ref.translation().x(), 1.0, 1e-6);
 }
 
-TEST(MinimiseTest, SmallStepsAndSmallGainsEndIt) {
+TEST(MinimizeTest, SmallStepsAndSmallGainsEndIt) {
   LineTerm quartic([](double x) { return 1.0 + std::pow(x, 4); },
                    [](double x) { return 4.0 * std::pow(x, 3); },
                    [](double x) { return 12.0 * x * x; });
@@ -211,9 +211,9 @@ TEST(MinimiseTest, SmallStepsAndSmallGainsEndIt) {
   coarse_step.alignment.min_step_pixels = 1.0;
   Parameters coarse_gain = precise;
   coarse_gain.alignment.min_cost_change = 0.01;
-  const Minimum far = minimise({&quartic}, at(0.5), 1.0, kPixelMotion, precise);
-  const Minimum by_step = minimise({&quartic}, at(0.5), 1.0, kPixelMotion, coarse_step);
-  const Minimum by_gain = minimise({&quartic}, at(0.5), 1.0, kPixelMotion, coarse_gain);
+  const Minimum far = minimize({&quartic}, at(0.5), 1.0, kPixelMotion, precise);
+  const Minimum by_step = minimize({&quartic}, at(0.5), 1.0, kPixelMotion, coarse_step);
+  const Minimum by_gain = minimize({&quartic}, at(0.5), 1.0, kPixelMotion, coarse_gain);
   EXPECT_LT(by_step.iterations, far.iterations);
   EXPECT_LT(by_gain.iterations, far.iterations);
   EXPECT_GT(by_step.iterations, 1);
@@ -224,36 +224,36 @@ TEST(MinimiseTest, SmallStepsAndSmallGainsEndIt) {
   Parameters tenth = both;
   tenth.alignment.min_step_pixels *= 0.1;
   tenth.alignment.min_cost_change *= 0.1;
-  const Minimum expected = minimise({&quartic}, at(0.5), 1.0, kPixelMotion, both);
-  const Minimum actual = minimise({&quartic}, at(0.5), 1.0, kPixelMotion, tenth, 10.0);
+  const Minimum expected = minimize({&quartic}, at(0.5), 1.0, kPixelMotion, both);
+  const Minimum actual = minimize({&quartic}, at(0.5), 1.0, kPixelMotion, tenth, 10.0);
   EXPECT_LT(expected.iterations, far.iterations);
   EXPECT_EQ(actual.iterations, expected.iterations);
   EXPECT_EQ(actual.cost, expected.cost);
 }
 
-TEST(MinimiseTest, AShortStepIsTakenUntriedWhereTheCostIsConvex) {
+TEST(MinimizeTest, AShortStepIsTakenUntriedWhereTheCostIsConvex) {
   TranslationTerm bowl(Eigen::Matrix3d::Identity(), {0.004, 0.0, 0.0});
-  const Minimum minimum = minimise({&bowl}, at(0.0), 1.0, kPixelMotion, freeParameters(), 1.0, 0.5);
+  const Minimum minimum = minimize({&bowl}, at(0.0), 1.0, kPixelMotion, freeParameters(), 1.0, 0.5);
   EXPECT_NEAR(minimum.T_live_ref.translation().x(), 0.004, 1e-12);
   EXPECT_NEAR(minimum.cost, bowl.cost() - 0.5 * 0.004 * 0.004, 1e-12);  // as promised
   EXPECT_EQ(minimum.iterations, 1);
   EXPECT_EQ(minimum.evaluations, 1);
   // Longer ones are tried, and so is one from where the cost bends the other way.
-  EXPECT_EQ(minimise({&bowl}, at(0.1), 1.0, kPixelMotion, freeParameters(), 1.0, 0.5).evaluations,
+  EXPECT_EQ(minimize({&bowl}, at(0.1), 1.0, kPixelMotion, freeParameters(), 1.0, 0.5).evaluations,
             2);
   LineTerm hill([](double x) { return std::cos(x); }, [](double x) { return -std::sin(x); },
                 [](double x) { return -std::cos(x); });
-  EXPECT_GT(minimise({&hill}, at(0.001), 1.0, kPixelMotion, freeParameters(), 1.0, 0.5).evaluations,
+  EXPECT_GT(minimize({&hill}, at(0.001), 1.0, kPixelMotion, freeParameters(), 1.0, 0.5).evaluations,
             2);
 }
 
-TEST(MinimiseTest, AnInfiniteCostStaysWhereItIs) {
+TEST(MinimizeTest, AnInfiniteCostStaysWhereItIs) {
   LineTerm nowhere([](double) { return std::numeric_limits<double>::infinity(); },
                    [](double) { return 1.0; }, [](double) { return 1.0; });
-  const Minimum minimum = minimise({&nowhere}, at(0.7), 1.0, kPixelMotion, freeParameters());
+  const Minimum minimum = minimize({&nowhere}, at(0.7), 1.0, kPixelMotion, freeParameters());
   EXPECT_EQ(minimum.T_live_ref.translation().x(), 0.7);
   EXPECT_EQ(minimum.iterations, 0);
-  EXPECT_TRUE(nowhere.linearised_.empty());
+  EXPECT_TRUE(nowhere.linearized_.empty());
 }
 
 /// A bowl with one number of its model replaced.
@@ -275,12 +275,12 @@ class SpoiltTerm : public TranslationTerm {
   double value_;
 };
 
-TEST(MinimiseTest, WhatIsNotFiniteEndsWithoutAStep) {
+TEST(MinimizeTest, WhatIsNotFiniteEndsWithoutAStep) {
   const Matrix6 all = Matrix6::Identity();
   const auto expectNoStep = [&](TranslationTerm& term, const Matrix6& pixel_motion) {
     for (const Matrix6* free : {static_cast<const Matrix6*>(nullptr), &all}) {
       const Minimum minimum =
-          minimise({&term}, at(0.1), 1.0, pixel_motion, freeParameters(), 1.0, 0.5, free);
+          minimize({&term}, at(0.1), 1.0, pixel_motion, freeParameters(), 1.0, 0.5, free);
       EXPECT_EQ(minimum.T_live_ref.matrix(), at(0.1).matrix());
       EXPECT_EQ(minimum.iterations, 0);
       EXPECT_EQ(minimum.evaluations, 1);  // none was tried
@@ -300,14 +300,14 @@ TEST(MinimiseTest, WhatIsNotFiniteEndsWithoutAStep) {
   }
 }
 
-TEST(MinimiseTest, AStepIntoNothingIsRefused) {
+TEST(MinimizeTest, AStepIntoNothingIsRefused) {
   // Points leave the view beyond x = 0.3.
   LineTerm cliff(
       [](double x) {
         return x < 0.3 ? (x - 0.29) * (x - 0.29) : std::numeric_limits<double>::infinity();
       },
       [](double x) { return 2.0 * (x - 0.29); }, [](double) { return 1.0; });
-  const Minimum minimum = minimise({&cliff}, at(0.0), 1.0, kPixelMotion, freeParameters());
+  const Minimum minimum = minimize({&cliff}, at(0.0), 1.0, kPixelMotion, freeParameters());
   EXPECT_TRUE(std::isfinite(minimum.cost));
   EXPECT_NEAR(minimum.T_live_ref.translation().x(), 0.29, 0.01);
 }

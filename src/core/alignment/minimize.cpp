@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/alignment/minimise.h"
+#include "core/alignment/minimize.h"
 
 #include <algorithm>
 #include <cmath>
@@ -16,10 +16,10 @@ double evaluate(const std::vector<CostTerm*>& terms, const Eigen::Isometry3d& T_
   return cost;
 }
 
-QuadraticModel linearise(const std::vector<CostTerm*>& terms, int iteration) {
+QuadraticModel linearize(const std::vector<CostTerm*>& terms, int iteration) {
   QuadraticModel sum;
   for (CostTerm* term : terms) {
-    const QuadraticModel model = term->linearise(iteration);
+    const QuadraticModel model = term->linearize(iteration);
     sum.cost += model.cost;
     sum.gradient += model.gradient;
     sum.hessian += model.hessian;
@@ -29,7 +29,7 @@ QuadraticModel linearise(const std::vector<CostTerm*>& terms, int iteration) {
 
 /// Inverse composition (Eq. 5).
 Eigen::Isometry3d moved(const Eigen::Isometry3d& T_live_ref, const Vector6& step) {
-  return orthonormalised(T_live_ref * retract(step).inverse());
+  return orthonormalized(T_live_ref * retract(step).inverse());
 }
 
 /// Projects a step onto the free directions.
@@ -41,7 +41,7 @@ void hold(const QuadraticModel& model, const Matrix6& free, NewtonStep& newton) 
 
 }  // namespace
 
-Minimum minimise(const std::vector<CostTerm*>& terms, const Eigen::Isometry3d& T_live_ref,
+Minimum minimize(const std::vector<CostTerm*>& terms, const Eigen::Isometry3d& T_live_ref,
                  double length, const Matrix6& pixel_motion, const Parameters& parameters,
                  double tolerance, double trusted_step_pixels, const Matrix6* free) {
   const double min_step_pixels = tolerance * parameters.alignment.min_step_pixels;
@@ -51,7 +51,7 @@ Minimum minimise(const std::vector<CostTerm*>& terms, const Eigen::Isometry3d& T
   minimum.evaluations = 1;
   bool is_evaluated_there = true;  // the terms were last evaluated at minimum.T_live_ref
   while (std::isfinite(minimum.cost) && minimum.iterations < parameters.alignment.max_iterations) {
-    const QuadraticModel model = linearise(terms, minimum.iterations);
+    const QuadraticModel model = linearize(terms, minimum.iterations);
     minimum.cost = model.cost;
     NewtonStep newton = newtonStep(model, length, parameters.alignment.min_curvature);
     if (free != nullptr) hold(model, *free, newton);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "session/grey_range.h"
+#include "session/gray_range.h"
 
 #include <gtest/gtest.h>
 
@@ -12,17 +12,17 @@ cv::Mat brightest(int value, int type = CV_16UC1) {
   return image;
 }
 
-TEST(GreyRangeTest, TheBrightestPixelTellsTheBits) {
+TEST(GrayRangeTest, TheBrightestPixelTellsTheBits) {
   const int cases[][2] = {{0, 8},     {255, 8},   {256, 10},   {1023, 10},  {1024, 12},
                           {4095, 12}, {4096, 14}, {16383, 14}, {16384, 16}, {65535, 16}};
   for (const auto& [value, bits] : cases) {
-    EXPECT_EQ(GreyRange().include(brightest(value)), bits) << value;
-    EXPECT_EQ(GreyRange().include(brightest(value, CV_16UC3)), bits) << value;
+    EXPECT_EQ(GrayRange().include(brightest(value)), bits) << value;
+    EXPECT_EQ(GrayRange().include(brightest(value, CV_16UC3)), bits) << value;
   }
 }
 
-TEST(GreyRangeTest, GrowsAndStays) {
-  GreyRange range;
+TEST(GrayRangeTest, GrowsAndStays) {
+  GrayRange range;
   EXPECT_EQ(range.include(brightest(900)), 10);
   EXPECT_EQ(range.include(brightest(10)), 10);
   EXPECT_EQ(range.include(brightest(4000)), 12);

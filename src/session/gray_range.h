@@ -6,13 +6,13 @@
 
 namespace mivo {
 
-/// How many of 16 bits the colour images of a stream use: cameras of 10, 12 or 14 bits fill the
-/// low ones, and toGrey() has to know, or most of the light is lost. The first image tells; when a
+/// How many of 16 bits the color images of a stream use: cameras of 10, 12 or 14 bits fill the
+/// low ones, and toGray() has to know, or most of the light is lost. The first image tells; when a
 /// later one is brighter, the range grows and stays.
-class GreyRange {
+class GrayRange {
  public:
-  /// @param image  any; of 8 bits, nothing is learnt
-  /// @return for toGrey(): 8, 10, 12, 14 or 16
+  /// @param image  any; of 8 bits, nothing is learned
+  /// @return for toGray(): 8, 10, 12, 14 or 16
   int include(const cv::Mat& image) {
     if (image.depth() != CV_16U || image.empty()) return bits_;
     double brightest = 0.0;

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <string>
 
-#include "core/alignment/minimise.h"
+#include "core/alignment/minimize.h"
 #include "core/execution/cpu_clock.h"
 #include "lbfgs.h"
 #include "pair_experiment.h"
@@ -28,7 +28,7 @@ struct Outcome {
 
 /// Down the pyramid by mutual information on each level.
 Outcome descend(const mivo::ImagePair& pair, const mivo::Camera& camera,
-                const Eigen::Isometry3d& start, const std::string& optimiser,
+                const Eigen::Isometry3d& start, const std::string& optimizer,
                 const mivo::Parameters& parameters) {
   Outcome outcome;
   outcome.T_live_ref = start;
@@ -39,8 +39,8 @@ Outcome descend(const mivo::ImagePair& pair, const mivo::Camera& camera,
     mivo::MiTerm term(level.points, level.mi, pair.live.miImage(l), pair.live.miRange(l), warp,
                       parameters);
     const auto length = static_cast<double>(level.points.median_depth);
-    if (optimiser == "newton") {
-      const mivo::Minimum minimum = mivo::minimise({&term}, outcome.T_live_ref, length,
+    if (optimizer == "newton") {
+      const mivo::Minimum minimum = mivo::minimize({&term}, outcome.T_live_ref, length,
                                                    level.points.pixel_motion, parameters);
       outcome.T_live_ref = minimum.T_live_ref;
       outcome.cost = minimum.cost;
@@ -49,9 +49,9 @@ Outcome descend(const mivo::ImagePair& pair, const mivo::Camera& camera,
       outcome.gradients += minimum.iterations;
     } else {
       const auto gradient =
-          optimiser == "lbfgs" ? mivo::GradientSource::kTerm : mivo::GradientSource::kDifferences;
+          optimizer == "lbfgs" ? mivo::GradientSource::kTerm : mivo::GradientSource::kDifferences;
       const mivo::LbfgsResult result =
-          mivo::minimiseByLbfgs(term, outcome.T_live_ref, length, gradient, parameters);
+          mivo::minimizeByLbfgs(term, outcome.T_live_ref, length, gradient, parameters);
       outcome.T_live_ref = result.T_live_ref;
       outcome.cost = result.cost;
       outcome.iterations += result.iterations;
@@ -63,26 +63,26 @@ Outcome descend(const mivo::ImagePair& pair, const mivo::Camera& camera,
   return outcome;
 }
 
-void validate(const std::string& optimiser) {
-  if (optimiser != "newton" && optimiser != "lbfgs" && optimiser != "lbfgs_differences") {
-    throw mivo::UsageError("--optimiser is newton, lbfgs or lbfgs_differences");
+void validate(const std::string& optimizer) {
+  if (optimizer != "newton" && optimizer != "lbfgs" && optimizer != "lbfgs_differences") {
+    throw mivo::UsageError("--optimizer is newton, lbfgs or lbfgs_differences");
   }
 }
 
 void run(int argc, char** argv) {
   mivo::PairExperiment experiment(100);
-  std::string optimiser;
-  mivo::CommandLine line("optimiser_experiment",
-                         "Maximises mutual information on all levels from random starts by "
+  std::string optimizer;
+  mivo::CommandLine line("optimizer_experiment",
+                         "Maximizes mutual information on all levels from random starts by "
                          "Newton's method or by L-BFGS of Ceres.");
   experiment.declare(line, "one row per trial");
   line.options()(
-      "optimiser", po::value(&optimiser)->value_name("NAME"),
+      "optimizer", po::value(&optimizer)->value_name("NAME"),
       "newton; lbfgs, with the gradient that Newton uses; lbfgs_differences, with the gradient by "
       "central differences of the cost (required)");
   if (!line.parse(argc, argv)) return;
   experiment.validate();
-  validate(optimiser);
+  validate(optimizer);
 
   mivo::Parameters parameters = experiment.parameters();
   parameters.alignment.method = mivo::Method::kMi;  // the cost in question, on every level
@@ -96,7 +96,7 @@ void run(int argc, char** argv) {
     const double magnitude = experiment.magnitudes()[series];
     experiment.run(
         images, series, progress, [&](const mivo::ImagePair& pair, const Eigen::Isometry3d& start) {
-          const Outcome outcome = descend(pair, images.camera, start, optimiser, parameters);
+          const Outcome outcome = descend(pair, images.camera, start, optimizer, parameters);
           const mivo::PoseDifference error = mivo::difference(outcome.T_live_ref, pair.T_live_ref);
           file.write(fmt::format("{:.6g},{:.6g},{:.6g},{},{:.6g},{},{},{},{:.4f}\n", magnitude,
                                  error.translation, error.rotation, mivo::isSuccess(error) ? 1 : 0,
@@ -109,5 +109,5 @@ void run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return mivo::runProgram("optimiser_experiment", [&] { run(argc, argv); });
+  return mivo::runProgram("optimizer_experiment", [&] { run(argc, argv); });
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/odometry/judgement.h"
+#include "core/odometry/judgment.h"
 
 namespace mivo {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "core/odometry/judgement.h"
+#include "core/odometry/judgment.h"
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ Alignment goodAlignment() {
   return alignment;
 }
 
-class JudgementTest : public ::testing::Test {
+class JudgmentTest : public ::testing::Test {
  protected:
   TrackingReason reason() const { return judge(alignment_, parameters_); }
 
@@ -29,7 +29,7 @@ class JudgementTest : public ::testing::Test {
   Alignment alignment_ = goodAlignment();
 };
 
-TEST_F(JudgementTest, NothingSpeaksAgainstAGoodOne) {
+TEST_F(JudgmentTest, NothingSpeaksAgainstAGoodOne) {
   EXPECT_EQ(reason(), TrackingReason::kNone);
   EXPECT_TRUE(isConvincing(alignment_, parameters_));
   EXPECT_EQ(qualityOf(alignment_, false).state, TrackingState::kTracking);
@@ -38,7 +38,7 @@ TEST_F(JudgementTest, NothingSpeaksAgainstAGoodOne) {
   EXPECT_EQ(qualityOf(alignment_, true).reason, TrackingReason::kAmbiguous);
 }
 
-TEST_F(JudgementTest, EachLimitHasItsReason) {
+TEST_F(JudgmentTest, EachLimitHasItsReason) {
   alignment_.T_live_ref.translation().x() = kNan;
   EXPECT_EQ(reason(), TrackingReason::kNotFinite);
   alignment_ = goodAlignment();
@@ -55,7 +55,7 @@ TEST_F(JudgementTest, EachLimitHasItsReason) {
   EXPECT_EQ(reason(), TrackingReason::kNotFinite);
 }
 
-TEST_F(JudgementTest, DepthAloneCountsOnlyInTheDark) {
+TEST_F(JudgmentTest, DepthAloneCountsOnlyInTheDark) {
   alignment_.sees_image = false;
   EXPECT_EQ(reason(), TrackingReason::kNothingInCommon);
   for (bool* dark : {&alignment_.is_live_dark, &alignment_.is_keyframe_dark}) {
@@ -71,19 +71,19 @@ TEST_F(JudgementTest, DepthAloneCountsOnlyInTheDark) {
   }
 }
 
-TEST_F(JudgementTest, AnOpenDirectionDegrades) {
+TEST_F(JudgmentTest, AnOpenDirectionDegrades) {
   alignment_.has_open_directions = true;
   EXPECT_EQ(reason(), TrackingReason::kNone);
   EXPECT_EQ(qualityOf(alignment_, false).state, TrackingState::kDegraded);
   EXPECT_EQ(qualityOf(alignment_, false).reason, TrackingReason::kOpenDirections);
 }
 
-TEST_F(JudgementTest, AWeakCorrelationConvincesNobody) {
+TEST_F(JudgmentTest, AWeakCorrelationConvincesNobody) {
   alignment_.correlation = parameters_.retry_correlation - 0.01;
   EXPECT_FALSE(isConvincing(alignment_, parameters_));
 }
 
-TEST_F(JudgementTest, MotionIsHeldAgainstTheTimeItTook) {
+TEST_F(JudgmentTest, MotionIsHeldAgainstTheTimeItTook) {
   parameters_.lost_speed = 2.0;
   parameters_.lost_turn_rate = 4.0;
   const Vector6 fast = 0.1 * Vector6::Unit(0) + 0.1 * Vector6::Unit(4);
