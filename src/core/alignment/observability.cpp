@@ -34,6 +34,16 @@ Matrix within(const Matrix6& matrix, const Matrix& axes, const Vector6& scale) {
   return axes.transpose() * scaled * axes;
 }
 
+/// A covariance. Where a Hessian stands for one, the Hessian may be negative along some directions,
+/// as that of MI is far from its maximum: it counts there by its size.
+Matrix6 positive(const Matrix6& matrix) {
+  if (!matrix.allFinite()) return matrix;
+  const Eigen::SelfAdjointEigenSolver<Matrix6> solver(matrix);
+  if (solver.eigenvalues().minCoeff() >= 0.0) return matrix;
+  return solver.eigenvectors() * solver.eigenvalues().cwiseAbs().asDiagonal() *
+         solver.eigenvectors().transpose();
+}
+
 /// How the derivatives by keyframe and by live frame correlate in a subspace: directions (columns)
 /// along which they do so independently of each other, and by how much, -1..1, ascending.
 struct Correlation {
@@ -88,7 +98,8 @@ Observability::Observability(const Matrix6& hessian, const ObservabilityInput& i
     : scale_(Vector6::Ones()), open_deviations_(input.open_deviations) {
   scale_.head<3>().setConstant(input.length);
   const Vector6 inverse = scale_.cwiseInverse();
-  gradient_covariance_ = scale_.asDiagonal() * input.gradient_covariance * scale_.asDiagonal();
+  gradient_covariance_ =
+      positive(scale_.asDiagonal() * input.gradient_covariance * scale_.asDiagonal());
   expected_covariance_ = inverse.asDiagonal() * input.expected_covariance * inverse.asDiagonal();
   if (!hessian.allFinite()) return;
   hessian_ = scale_.asDiagonal() * hessian * scale_.asDiagonal();

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -247,6 +248,24 @@ TEST(ObservabilityTest, TheCovarianceIsThatOfTheSandwich) {
   ASSERT_FALSE(seen.hasOpen());
   const Matrix6 expected = hessian.inverse() * C * hessian.inverse();
   EXPECT_LT((seen.covarianceOfSeen() - expected).norm(), 1e-9 * expected.norm());
+}
+
+// The Hessian of MI is negative in some directions, and stands for the covariance of the gradient
+// where that is not known. Confirming the doubted directions turns the axes away from its own.
+TEST(ObservabilityTest, TheCovarianceIsOneThoughTheHessianIsIndefinite) {
+  const Matrix6 upper = TwoFrames(Vector6::Zero(), 0.0).term().hessian;
+  for (const double shift : {0.0, 0.5, 0.99}) {
+    Matrix6 indefinite = upper;
+    indefinite.row(0) += shift * 4.0 * upper.row(4);
+    indefinite.col(0) += shift * 4.0 * upper.col(4);
+    TermCurvature term = TwoFrames(Vector6::Zero(), kNoise).term();
+    Observability seen(indefinite, inputFor(indefinite));
+    seen.confirm(kAll, {term});
+    const Eigen::SelfAdjointEigenSolver<Matrix6> covariance(seen.covarianceOfSeen());
+    EXPECT_GE(covariance.eigenvalues().minCoeff(), -1e-12 * covariance.eigenvalues().maxCoeff());
+    const Eigen::SelfAdjointEigenSolver<Matrix6> information(seen.informationOfSeen());
+    EXPECT_GE(information.eigenvalues().minCoeff(), -1e-9 * information.eigenvalues().maxCoeff());
+  }
 }
 
 TEST(ObservabilityTest, DirectionsAreToldInTheAxesOfTheLiveCamera) {
