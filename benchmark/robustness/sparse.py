@@ -29,11 +29,12 @@ def sparse(bench):
     methods = bench.trackers()
     rows, progress = [], Progress(len(scenes) * len(seeds), "sparse scenes")
     for scene in scenes:
-        sums = {method: collections.Counter() for method in methods}
+        sums = {method: dict.fromkeys(HEAD[2:], 0) for method in methods}
         for seed in seeds:
             folder = film(bench, scene, seed)
             for method in methods:
-                sums[method].update(count(bench.track(method, folder), folder))
+                for name, number in count(bench.track(method, folder), folder).items():
+                    sums[method][name] += number
             progress.step(f"{scene} {seed}")
         rows += [[scene, method] + [str(sums[method][name]) for name in HEAD[2:]]
                  for method in methods]
@@ -57,7 +58,7 @@ def count(frames, folder):
     states = collections.Counter(frame.state for frame in frames)
     right = [now for before, now in motion_pairs(frames)
              if now.state == "degraded" and size(motion_error(before, now))[0] < WRONG_M]
-    return {"frames": len(frames), "wrong and called tracking": len(wrong_motions(frames)),
+    return {"frames": len(frames), "undetected errors": len(wrong_motions(frames)),
             "lost": states["lost"],
             "false losses": len(false_losses(frames, color_by_stamp(folder))),
             "degraded": states["degraded"], "degraded though correct": len(right)}
