@@ -18,6 +18,7 @@ ROOT = os.path.dirname(os.path.dirname(HERE))
 sys.path.append(os.path.dirname(HERE))
 
 import chance  # noqa: E402  they need the path above
+import coarse  # noqa: E402
 import covariance  # noqa: E402
 import darkness  # noqa: E402
 import degenerate  # noqa: E402
@@ -49,7 +50,7 @@ PARTS = {"light": light.light, "darkness": darkness.darkness, "loss": loss.loss,
          "static": still.static, "rest": still.rest, "covariance": covariance.covariance,
          "sparse": sparse.sparse, "degenerate": degenerate.degenerate, "gaps": gaps.gaps,
          "chance": chance.chance, "false_losses": false_losses.count, "shutter": shutters,
-         "models": compared}
+         "models": compared, "coarse": coarse.coarse}
 
 
 def document(bench):
