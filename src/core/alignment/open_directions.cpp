@@ -19,9 +19,15 @@ constexpr double kModelErrorPixels = 0.05;
 // of oblique edges correlate by up to 0.6 there, those of a few points by up to 0.75.
 constexpr double kLeastAgreement = 0.7;
 constexpr double kLeastAgreementOfFew = 0.8;
-// On the coarsest level asked they correlate by 0.3 at most. What correlates by more there in all
-// directions is texture, and what the finer levels see of it only noise can hide.
+// On the coarsest level asked they correlate by 0.6 in one frame of a hundred, by 0.72 at most. What
+// correlates by more there in all directions is texture, and what the finer levels see of it only
+// noise and blur can hide.
 constexpr double kAgreementOfTexture = 0.75;
+// The least curvature of the finest images, of the strongest, by noise and the steps of oblique
+// edges: 0.0004 at most. Where the keyframe has more it has texture, and half an agreement confirms
+// that the live frame, blurred or in other light, shows it, too.
+constexpr double kCurvatureOfSteps = 5e-4;
+constexpr double kAgreementOfBlurredTexture = 0.45;
 // Number of points for a first, fast test (0.1 ms), which suffices for most views.
 constexpr std::size_t kPointsAtFirst = 1024;
 // Approximate mean of the robust weights.
@@ -108,7 +114,10 @@ Observability lookAt(const FinishedDescent& descent, const Matrix6& expected_cov
   // Before a direction is declared open, all points and the coarser levels are tested.
   findCurvatures(descent, alignment, descent.points.size(), kLeastAgreement, *curvatures);
   descent.add_coarser(alignment.T_live_ref, *curvatures);
-  if (seen.leastCorrelation(curvatures->back()) >= kAgreementOfTexture) {
+  const bool has_texture =
+      seen.curvature().minCoeff() > kCurvatureOfSteps * seen.curvature().maxCoeff();
+  if (seen.leastCorrelation(curvatures->back()) >=
+      (has_texture ? kAgreementOfBlurredTexture : kAgreementOfTexture)) {
     for (TermCurvature& term : *curvatures) term.least_agreement = 0.0;
   }
   seen.confirm(doubt, *curvatures);
