@@ -202,4 +202,11 @@ Camera distortedCamera() {
   return camera;
 }
 
+Camera fisheyeCamera() {
+  Camera camera = smallCamera();
+  camera.fx = camera.fy = 75.0;
+  camera.distortion = {0.03, -0.01, 0.0, 0.0, 0.002, -0.0005, 0.0, 0.0, LensModel::kEquidistant};
+  return camera;
+}
+
 }  // namespace mivo::testing

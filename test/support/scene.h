@@ -70,4 +70,7 @@ Camera smallCamera();
 /// The same with the distortion of a usual lens.
 Camera distortedCamera();
 
+/// The same with an equidistant lens, 120 degrees wide.
+Camera fisheyeCamera();
+
 }  // namespace mivo::testing

@@ -1,17 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A pixel of a keyframe turned into a point with derivatives: included once for floats and once for
-// the vectors of each instruction set, and therefore without include guards. Before it
-// MIVO_FORMULAS names a namespace that has a type Number with + - * /, constant(float),
-// squareRoot(), arcTangent() and tangent(), and MIVO_INLINE says how to inline.
+// A pixel of a keyframe turned into a point with derivatives: included after lens_formulas-inl.h,
+// and as that.
 
 namespace mivo {
 namespace kernels {
 namespace MIVO_FORMULAS {
-
-/// A 2 x 2 matrix, row by row.
-struct Matrix2 {
-  Number a, b, c, d;
-};
 
 struct Point3 {
   Number x, y, z;
@@ -19,86 +12,6 @@ struct Point3 {
 
 MIVO_INLINE Point3 cross(const Point3& a, const Point3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
-
-/// Normalized coordinates behind a lens, and their derivative.
-struct Distorted {
-  Number x, y;
-  Matrix2 derivative;
-};
-
-/// A lens without its tangential part: a point is multiplied by `scale`, whose derivative with
-/// respect to the point is `slope` times the point.
-struct Radial {
-  Number scale, slope;
-};
-
-MIVO_INLINE Radial plumbBob(const WarpParameters& p, Number r2) {
-  const Number k1 = constant(p.k1);
-  const Number k2 = constant(p.k2);
-  const Number k3 = constant(p.k3);
-  const Number two = constant(2.0F);
-  return {constant(1.0F) + r2 * (k1 + r2 * (k2 + r2 * k3)),
-          two * (k1 + r2 * (two * k2 + r2 * constant(3.0F) * k3))};
-}
-
-MIVO_INLINE Radial rational(const WarpParameters& p, Number r2) {
-  const Number k4 = constant(p.k4);
-  const Number k5 = constant(p.k5);
-  const Number k6 = constant(p.k6);
-  const Number two = constant(2.0F);
-  const Radial over = plumbBob(p, r2);
-  const Number under = constant(1.0F) + r2 * (k4 + r2 * (k5 + r2 * k6));
-  const Number under_slope = two * (k4 + r2 * (two * k5 + r2 * constant(3.0F) * k6));
-  const Number scale = over.scale / under;
-  return {scale, (over.slope - scale * under_slope) / under};
-}
-
-/// Of an angle to the optical axis: distorted radius over the angle, and its derivative.
-struct Angular {
-  Number scale, slope;
-};
-
-MIVO_INLINE Angular equidistantAngle(const WarpParameters& p, Number angle) {
-  const Number k1 = constant(p.k1);
-  const Number k2 = constant(p.k2);
-  const Number k3 = constant(p.k3);
-  const Number k4 = constant(p.k4);
-  const Number a2 = angle * angle;
-  return {constant(1.0F) + a2 * (k1 + a2 * (k2 + a2 * (k3 + a2 * k4))),
-          constant(1.0F) + a2 * (constant(3.0F) * k1 +
-                                 a2 * (constant(5.0F) * k2 +
-                                       a2 * (constant(7.0F) * k3 + a2 * constant(9.0F) * k4)))};
-}
-
-MIVO_INLINE Radial equidistant(const WarpParameters& p, Number r2) {
-  // On the axis, where all is 0 / 0, and too small to matter elsewhere.
-  const Number square = r2 + constant(1e-12F);
-  const Number r = squareRoot(square);
-  const Number angle = arcTangent(r);
-  const Angular lens = equidistantAngle(p, angle);
-  const Number scale = angle * lens.scale / r;
-  return {scale, (lens.slope / (constant(1.0F) + square) - scale) / square};
-}
-
-MIVO_INLINE Radial radialOf(const WarpParameters& p, Number r2) {
-  if (p.lens == Lens::kEquidistant) return equidistant(p, r2);
-  return p.lens == Lens::kRational ? rational(p, r2) : plumbBob(p, r2);
-}
-
-MIVO_INLINE Distorted distorted(const WarpParameters& p, Number x, Number y) {
-  const Number p1 = constant(p.p1);
-  const Number p2 = constant(p.p2);
-  const Number two = constant(2.0F);
-  const Number r2 = x * x + y * y;
-  const Radial lens = radialOf(p, r2);
-  const Number radial = lens.scale;
-  const Number slope = lens.slope;
-  const Number mixed = slope * x * y + two * (p1 * x + p2 * y);
-  return {x * radial + two * p1 * x * y + p2 * (r2 + two * x * x),
-          y * radial + p1 * (r2 + two * y * y) + two * p2 * x * y,
-          {radial + slope * x * x + two * p1 * y + constant(6.0F) * p2 * x, mixed, mixed,
-           radial + slope * y * y + constant(6.0F) * p1 * y + two * p2 * x}};
 }
 
 /// The ray of a pixel, of depth 1, and the derivative of pixels with respect to its x and y.
@@ -191,16 +104,33 @@ MIVO_INLINE PixelMotion pixelMotion(const Point3& X, const Matrix2& scale) {
   return motion;
 }
 
-/// Second derivatives of the image: d2/du2, d2/du dv, d2/dv2.
-struct Curvature {
-  Number uu, uv, vv;
-};
+/// Second derivative of the intensity with respect to the ray: through the image and the lens.
+/// @param image  with respect to the pixel
+MIVO_INLINE Curvature curvatureOnRay(const WarpParameters& p, const Ray& ray, Number gu, Number gv,
+                                     const Curvature& image) {
+  const Matrix2& scale = ray.scale;
+  const Number two = constant(2.0F);
+  const Curvature through_image = {
+      scale.a * scale.a * image.uu + two * scale.a * scale.c * image.uv +
+          scale.c * scale.c * image.vv,
+      scale.a * scale.b * image.uu + (scale.a * scale.d + scale.b * scale.c) * image.uv +
+          scale.c * scale.d * image.vv,
+      scale.b * scale.b * image.uu + two * scale.b * scale.d * image.uv +
+          scale.d * scale.d * image.vv};
+  if (p.lens == Lens::kNone) return through_image;
+  const LensCurvature lens = lensCurvature(p, ray.x, ray.y);
+  const Number along_x = gu * constant(p.fx);
+  const Number along_y = gv * constant(p.fy);
+  return {through_image.uu + along_x * lens.x.uu + along_y * lens.y.uu,
+          through_image.uv + along_x * lens.x.uv + along_y * lens.y.uv,
+          through_image.vv + along_x * lens.x.vv + along_y * lens.y.vv};
+}
 
 /// Upper triangle, row by row, of the second derivative of the intensity with respect to the
-/// increment: through the image, through the projection, and the second order of the rotation. The
-/// lens' own curvature is left out: it is hundreds of times weaker than the image's.
+/// increment: through image and lens, through the projection, and the second order of the rotation.
+/// @param curvature  that of curvatureOnRay()
 MIVO_INLINE void secondDerivative(const Point3& X, const Matrix2& scale, Number gu, Number gv,
-                                  const Curvature& image, Number (&second)[21]) {
+                                  const Curvature& curvature, Number (&second)[21]) {
   const Number half = constant(0.5F);
   const Number two = constant(2.0F);
   const Number inverse = constant(1.0F) / X.z;
@@ -210,13 +140,9 @@ MIVO_INLINE void secondDerivative(const Point3& X, const Matrix2& scale, Number 
   // With respect to normalized coordinates.
   const Number nx = scale.a * gu + scale.c * gv;
   const Number ny = scale.b * gu + scale.d * gv;
-  const Number xx = scale.a * scale.a * image.uu + two * scale.a * scale.c * image.uv +
-                    scale.c * scale.c * image.vv;
-  const Number yy = scale.b * scale.b * image.uu + two * scale.b * scale.d * image.uv +
-                    scale.d * scale.d * image.vv;
-  const Number xy = scale.a * scale.b * image.uu +
-                    (scale.a * scale.d + scale.b * scale.c) * image.uv +
-                    scale.c * scale.d * image.vv;
+  const Number xx = curvature.uu;
+  const Number xy = curvature.uv;
+  const Number yy = curvature.vv;
   // With respect to X: a symmetric matrix.
   const Number q00 = square * xx;
   const Number q01 = square * xy;

@@ -1,34 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include <cmath>
-
 #include "core/kernels/scalar.h"
-
-namespace mivo {
-namespace kernels {
-namespace reference {
-
-using Number = float;
-
-inline Number constant(float value) {
-  return value;
-}
-inline Number squareRoot(Number x) {
-  return std::sqrt(x);
-}
-inline Number arcTangent(Number x) {
-  return std::atan(x);
-}
-inline Number tangent(Number x) {
-  return std::tan(x);
-}
-
-}  // namespace reference
-}  // namespace kernels
-}  // namespace mivo
-
-#define MIVO_FORMULAS reference
-#define MIVO_INLINE inline
-#include "core/kernels/point_formulas-inl.h"
+#include "core/kernels/scalar_formulas.h"
 
 namespace mivo {
 namespace kernels {
@@ -55,9 +27,9 @@ void keyframePoints(const WarpParameters& camera, const PixelsView& pixels, std:
     }
     if (pixels.curvature_uu == nullptr) continue;
     float second[21];
-    secondDerivative(X, ray.scale, gu, gv,
-                     {pixels.curvature_uu[i], pixels.curvature_uv[i], pixels.curvature_vv[i]},
-                     second);
+    const Curvature image = {pixels.curvature_uu[i], pixels.curvature_uv[i],
+                             pixels.curvature_vv[i]};
+    secondDerivative(X, ray.scale, gu, gv, curvatureOnRay(camera, ray, gu, gv, image), second);
     for (int k = 0; k < 21; ++k) points.second_derivative[k][i] = second[k];
   }
 }

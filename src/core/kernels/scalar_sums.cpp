@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/kernels/scalar.h"
+#include "core/kernels/scalar_formulas.h"
 #include "core/terms/robust_weight.h"
 
 namespace mivo {
@@ -122,13 +123,13 @@ std::size_t geometricResiduals(const WarpParameters& live, const Motion& T_ref_l
       shift[1] = tau * (w[2] * q[0] - w[0] * q[2] + live.linear[1]);
       shift[2] = tau * (w[0] * q[1] - w[1] * q[0] + live.linear[2]);
     }
-    // The ray of the whole pixel differs from that of the point by less than a pixel; distortion
-    // does not matter over so short a way.
     const float inverse = 1.0F / (q[2] + shift[2]);
-    const float du = (static_cast<float>(column) - u[i]) / live.fx;
-    const float dv = (static_cast<float>(row) - v[i]) / live.fy;
-    const float Y[3] = {z * ((q[0] + shift[0]) * inverse + du) - shift[0],
-                        z * ((q[1] + shift[1]) * inverse + dv) - shift[1], z - shift[2]};
+    const NormalizedPoint ray = {(q[0] + shift[0]) * inverse, (q[1] + shift[1]) * inverse};
+    const NormalizedPoint step = beforeLens(live, ray,
+                                            {(static_cast<float>(column) - u[i]) / live.fx,
+                                             (static_cast<float>(row) - v[i]) / live.fy});
+    const float Y[3] = {z * (ray.x + step.x) - shift[0], z * (ray.y + step.y) - shift[1],
+                        z - shift[2]};
     float P[3];
     for (int k = 0; k < 3; ++k) {
       const float* R = T_ref_live.rotation + 3 * k;

@@ -27,6 +27,8 @@
 #if HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
 #include "core/kernels/vector_points-inl.h"
 //
+#include "core/kernels/vector_formulas-inl.h"
+//
 #include "core/kernels/vector_sums-inl.h"
 //
 #include "core/kernels/vector_scores-inl.h"

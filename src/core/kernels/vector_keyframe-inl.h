@@ -6,50 +6,6 @@ namespace mivo {
 namespace kernels {
 namespace HWY_NAMESPACE {
 
-/// A vector that the shared formulas can be written with.
-struct Number {
-  FloatVector v;
-};
-
-HWY_INLINE Number operator+(Number a, Number b) {
-  return {hn::Add(a.v, b.v)};
-}
-HWY_INLINE Number operator-(Number a, Number b) {
-  return {hn::Sub(a.v, b.v)};
-}
-HWY_INLINE Number operator*(Number a, Number b) {
-  return {hn::Mul(a.v, b.v)};
-}
-HWY_INLINE Number operator/(Number a, Number b) {
-  return {hn::Div(a.v, b.v)};
-}
-HWY_INLINE Number constant(float value) {
-  return {all(value)};
-}
-HWY_INLINE Number squareRoot(Number x) {
-  return {hn::Sqrt(x.v)};
-}
-HWY_INLINE Number arcTangent(Number x) {
-  return {hn::Atan(Floats(), x.v)};
-}
-HWY_INLINE Number tangent(Number x) {
-  return {hn::Div(hn::Sin(Floats(), x.v), hn::Cos(Floats(), x.v))};
-}
-
-}  // namespace HWY_NAMESPACE
-}  // namespace kernels
-}  // namespace mivo
-
-#define MIVO_FORMULAS HWY_NAMESPACE
-#define MIVO_INLINE HWY_INLINE
-#include "core/kernels/point_formulas-inl.h"
-#undef MIVO_FORMULAS
-#undef MIVO_INLINE
-
-namespace mivo {
-namespace kernels {
-namespace HWY_NAMESPACE {
-
 HWY_INLINE Number loadNumber(const float* values) {
   return {hn::LoadU(Floats(), values)};
 }
@@ -81,10 +37,10 @@ HWY_INLINE void derivePart(const WarpParameters& camera, const PixelsView& pixel
     }
     if (!kWithSecond) continue;
     Number second[21];
-    secondDerivative(X, ray.scale, gu, gv,
-                     {loadNumber(pixels.curvature_uu + i), loadNumber(pixels.curvature_uv + i),
-                      loadNumber(pixels.curvature_vv + i)},
-                     second);
+    const Curvature image = {loadNumber(pixels.curvature_uu + i),
+                             loadNumber(pixels.curvature_uv + i),
+                             loadNumber(pixels.curvature_vv + i)};
+    secondDerivative(X, ray.scale, gu, gv, curvatureOnRay(camera, ray, gu, gv, image), second);
     for (int k = 0; k < 21; ++k) hn::StoreU(second[k].v, d, points.second_derivative[k] + i);
   }
   for (int k = 0; k < 21; ++k) pixel_motion[k] += total(sums[k]);

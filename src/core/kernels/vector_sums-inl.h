@@ -305,10 +305,14 @@ HWY_INLINE FloatMask geometricVector(const WarpParameters& live, const Motion& T
   const FloatVector column = hn::ConvertTo(d, hn::ConvertTo(di, hn::Add(u, all(0.5F))));
   const FloatVector row = hn::ConvertTo(d, hn::ConvertTo(di, hn::Add(v, all(0.5F))));
   const FloatVector inverse = hn::Div(all(1.0F), q.z);
-  const FloatVector du = hn::Mul(hn::Sub(column, u), all(1.0F / live.fx));
-  const FloatVector dv = hn::Mul(hn::Sub(row, v), all(1.0F / live.fy));
-  const VectorPoint Y = {hn::MulSub(z, hn::MulAdd(q.x, inverse, du), shift.x),
-                         hn::MulSub(z, hn::MulAdd(q.y, inverse, dv), shift.y), hn::Sub(z, shift.z)};
+  const Number x = {hn::Mul(q.x, inverse)};
+  const Number y = {hn::Mul(q.y, inverse)};
+  const NormalizedPoint step = beforeLens(live, {x, y},
+                                          {{hn::Mul(hn::Sub(column, u), all(1.0F / live.fx))},
+                                           {hn::Mul(hn::Sub(row, v), all(1.0F / live.fy))}});
+  const VectorPoint Y = {hn::MulSub(z, hn::MulAdd(q.x, inverse, step.x.v), shift.x),
+                         hn::MulSub(z, hn::MulAdd(q.y, inverse, step.y.v), shift.y),
+                         hn::Sub(z, shift.z)};
   const VectorPoint P = moved(T_ref_live.rotation, T_ref_live.translation, Y);
   const FloatVector weight = hn::LoadU(d, planes.weight + i);
   const FloatVector distance = hn::MulAdd(

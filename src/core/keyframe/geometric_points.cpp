@@ -18,6 +18,8 @@ constexpr int kStep = 3;
 constexpr double kPatchSize = (2 * kRadius + 1) * (2 * kRadius + 1);
 // Sum of u^2 over the patch: 7 (1 + 4 + 9) 2.
 constexpr double kSquares = 196.0;
+// Root of the mean of u^2: pixels to each side at which second differences give the patch's mean.
+constexpr int kBendStep = 2;
 // residuals <= this many deviations of a reading, root mean square: the patch is planar. Noise
 // alone has one; two is noise that the sensor's model underrates, and not yet an edge.
 constexpr double kPlanar = 2.0;
@@ -53,6 +55,7 @@ struct PatchRays {
   Camera camera;
   std::vector<Eigen::Vector3d> ray;  // row by row; zero where the lens has none
   std::vector<Eigen::Matrix2d> scale;
+  std::vector<Eigen::Vector2d> bend;  // the mean over the patch less the ray: a lens bends rows
 };
 
 /// Intermediate results, and what can be used again for the next keyframe.
@@ -65,17 +68,37 @@ struct Workspace {
   std::vector<Patch> chosen;
 };
 
+/// Mean of the normalized coordinates over the patch around a pixel less those of the pixel, from
+/// second differences; zero at the rim of the lens.
+Eigen::Vector2d bendAround(int x, int y, const Camera& camera, const LensRange& range) {
+  const auto middle = camera.ray({x, y}, range);
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (const auto& [u, v] :
+       {std::pair{-kBendStep, 0}, {kBendStep, 0}, {0, -kBendStep}, {0, kBendStep}}) {
+    const auto ray = camera.ray({x + u, y + v}, range);
+    if (!middle || !ray) return Eigen::Vector2d::Zero();
+    sum += *ray - *middle;
+  }
+  return 0.5 * sum.head<2>();
+}
+
 void findRays(const Camera& camera, PatchRays& rays) {
   if (rays.camera == camera) return;
   rays.camera = camera;
   rays.ray.clear();
   rays.scale.clear();
+  rays.bend.clear();
   const LensRange range = camera.lensRange();
   for (int y = kRadius; y + kRadius < camera.height; y += kStep) {
     for (int x = kRadius; x + kRadius < camera.width; x += kStep) {
       rays.ray.push_back(camera.ray({x, y}, range).value_or(Eigen::Vector3d::Zero()));
       Eigen::Matrix2d scale = Eigen::Matrix2d::Identity();
-      if (!camera.distortion.isZero()) camera.distort(rays.ray.back().head<2>(), &scale);
+      Eigen::Vector2d bend = Eigen::Vector2d::Zero();
+      if (!camera.distortion.isZero()) {
+        camera.distort(rays.ray.back().head<2>(), &scale);
+        bend = bendAround(x, y, camera, range);
+      }
+      rays.bend.push_back(bend);
       rays.scale.emplace_back(Eigen::Vector2d(camera.fx, camera.fy).asDiagonal() * scale);
     }
   }
@@ -140,13 +163,15 @@ bool fitPlane(const ColumnSums& columns, int x, Plane& plane) {
 
 /// Point and normal of a plane in the optical frame; false when it is seen too flatly, or by a
 /// pixel without a ray.
-bool toPatch(const Plane& plane, const Eigen::Vector3d& ray, const Eigen::Matrix2d& scale,
-             Patch& patch) {
+bool toPatch(const Plane& plane, const PatchRays& rays, std::size_t i, Patch& patch) {
   // 1/z = center + g . (m - m0) in normalized coordinates m, hence g . (X, Y) + c Z = 1.
-  const Eigen::Vector2d g = scale.transpose() * Eigen::Vector2d(plane.slope_u, plane.slope_v);
+  const Eigen::Vector3d& ray = rays.ray[i];
+  const Eigen::Vector2d g =
+      rays.scale[i].transpose() * Eigen::Vector2d(plane.slope_u, plane.slope_v);
+  const double center = plane.center - g.dot(rays.bend[i]);
   const Eigen::Vector3d normal =
-      Eigen::Vector3d(g.x(), g.y(), plane.center - g.dot(ray.head<2>())).normalized();
-  patch.point = ray / plane.center;
+      Eigen::Vector3d(g.x(), g.y(), center - g.dot(ray.head<2>())).normalized();
+  patch.point = ray / center;
   patch.normal = normal;
   return std::abs(normal.dot(ray)) > kMinCosine * ray.norm();
 }
@@ -218,8 +243,7 @@ void findPatches(const cv::Mat& depth, const Camera& camera, const RowMotion& ro
       Plane plane{};
       Patch patch;
       patch.place = i;
-      if (!fitPlane(work.columns, x, plane) ||
-          !toPatch(plane, work.rays.ray[i], work.rays.scale[i], patch)) {
+      if (!fitPlane(work.columns, x, plane) || !toPatch(plane, work.rays, i, patch)) {
         continue;
       }
       patch.point -= rows.displacement(patch.point, y, camera.height);

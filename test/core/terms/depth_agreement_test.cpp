@@ -82,6 +82,23 @@ TEST_F(DepthAgreementTest, TheSameSurfacesAgreeFromWhereverTheyAreSeen) {
   }
 }
 
+TEST_F(DepthAgreementTest, BehindALensTheSameSurfacesAgree) {
+  for (const Camera& camera : {testing::distortedCamera(), testing::fisheyeCamera()}) {
+    camera_ = camera;
+    lookAtKeyframe(testing::render(testing::roomScene(), camera_, kIntoCorner));
+    const Eigen::Isometry3d T_live_ref = Random(3).pose(0.1, 0.1);
+    const Frame live =
+        testing::render(testing::roomScene(), camera_, kIntoCorner * T_live_ref.inverse());
+    const Agreement agreement = agreementWith(live, T_live_ref);
+    EXPECT_GT(agreement.points, static_cast<int>(points_.size()) * 3 / 4);
+    // A patch of the wide view is larger, and more of them lie across an edge: 0.12. With the rays
+    // of a pinhole it would be 1.5.
+    const double bound = camera.distortion.model == LensModel::kEquidistant ? 0.15 : 0.05;
+    EXPECT_LT(relativeError(agreement.live, agreement.keyframe), bound);
+    EXPECT_LT(relativeError(agreement.both, agreement.keyframe), bound);
+  }
+}
+
 TEST_F(DepthAgreementTest, FewerPointsAreSpreadOverAll) {
   const Frame frame = testing::render(testing::roomScene(), camera_, kIntoCorner);
   lookAtKeyframe(frame);

@@ -29,7 +29,7 @@ double tukeyLoss(double u) {
 
 class GeometricTermTest : public ::testing::Test {
  protected:
-  GeometricTermTest() {
+  explicit GeometricTermTest(const Camera& camera = testing::smallCamera()) : camera_(camera) {
     reference_ = testing::render(testing::roomScene(), camera_, kIntoCorner);
     live_frame_ = testing::render(testing::roomScene(), camera_, kIntoCorner * truth_.inverse());
     makeGeometricPoints(reference_.depth, camera_, {}, 5000, 5000, points_);
@@ -74,7 +74,7 @@ class GeometricTermTest : public ::testing::Test {
     return sum * static_cast<double>(points_.size()) / static_cast<double>(points.size());
   }
 
-  Camera camera_ = testing::smallCamera();
+  Camera camera_;
   Eigen::Isometry3d truth_ = Random(2).pose(0.03, 0.02);
   Parameters parameters_;
   Frame reference_;
@@ -82,6 +82,11 @@ class GeometricTermTest : public ::testing::Test {
   GeometricPoints points_;
   FramePyramid live_;
   Warp warp_{camera_, {}, 1};
+};
+
+class FisheyeTermTest : public GeometricTermTest {
+ protected:
+  FisheyeTermTest() : GeometricTermTest(testing::fisheyeCamera()) {}
 };
 
 // Where two walls meet, a patch may pass for a plane within the sensor's noise; they must stay few.
@@ -151,6 +156,38 @@ TEST_F(GeometricTermTest, CostAndGradientAreThoseOfItsDefinition) {
         << model.gradient.transpose() << "\n"
         << numeric.transpose();
   }
+}
+
+// Towards the rim a pixel spans several times the angle of one in the middle.
+TEST_F(FisheyeTermTest, ReadingsLieOnTheRaysOfTheirPixels) {
+  for (const Eigen::Isometry3d& T : {truth_, Random(4).pose(0.02, 0.01) * truth_}) {
+    GeometricTerm geometry = term();
+    const double value = geometry.evaluate(T);
+    const double expected = cost(measured(T), geometry.scale(), Vector6::Zero());
+    EXPECT_NEAR(value / expected, 1.0, 0.02);
+  }
+}
+
+// The rows of pixels that a patch is fitted to are bent on the wall.
+TEST_F(FisheyeTermTest, PatchesLieOnTheWalls) {
+  const Eigen::Matrix3d axes = kIntoCorner.linear().transpose();
+  double squares = 0.0;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const Eigen::Vector3d X =
+        Eigen::Vector3f(points_.x[i], points_.y[i], points_.z[i]).cast<double>();
+    const Eigen::Vector3d n =
+        Eigen::Vector3f(points_.nx[i], points_.ny[i], points_.nz[i]).cast<double>();
+    if ((axes.transpose() * n).cwiseAbs().maxCoeff() < 0.999) continue;  // across an edge
+    const auto pixel = testing::project(camera_, X);
+    ASSERT_TRUE(pixel);
+    const double depth = static_cast<double>(reference_.depth.at<float>(
+        static_cast<int>(std::lround(pixel->y())), static_cast<int>(std::lround(pixel->x()))));
+    squares += std::pow(X.z() / depth - 1.0, 2);
+    ++count;
+  }
+  ASSERT_GT(count, 200U);
+  EXPECT_LT(std::sqrt(squares / static_cast<double>(count)), 5e-4);
 }
 
 TEST_F(GeometricTermTest, NearTheTruthTheHessianIsTheTrueOne) {
