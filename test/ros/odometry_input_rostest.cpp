@@ -6,7 +6,9 @@
 #include <sensor_msgs/CompressedImage.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <opencv2/imgcodecs.hpp>
+#include <utility>
 
 #include "mivo/core/se3.h"
 #include "programs/plane_sequence.h"

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/alignment/pose_covariance.h"
 #include "support/random_pose.h"
 #include "support/scene.h"

@@ -9,6 +9,7 @@
 #include <map>
 #include <opencv2/core.hpp>
 #include <set>
+#include <utility>
 
 #include "support/analytic_image.h"
 #include "support/random_pose.h"

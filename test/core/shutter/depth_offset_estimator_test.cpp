@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "core/alignment/align.h"
 #include "core/terms/geometric_term.h"
 #include "support/random_pose.h"

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "support/analytic_points.h"
 #include "support/random_pose.h"
 
