@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A pixel of a keyframe turned into a point with derivatives: included once for floats and once for
-// the vectors of each instruction set, and therefore without include guards. Before it
-// MIVO_FORMULAS names a namespace that has a type Number with + - * /, constant(float),
-// squareRoot(), arcTangent() and tangent(), and MIVO_INLINE says how to inline.
+// The point of a keyframe's pixel, and its derivatives. This file is included once for floats and
+// once for the vectors of each instruction set, and therefore has no include guard. Define before
+// including it: MIVO_FORMULAS, a namespace with a type Number that has + - * /, and with
+// constant(float), squareRoot(), arcTangent() and tangent(); and MIVO_INLINE, the specifier for
+// inlining.
 
 namespace mivo {
 namespace kernels {
@@ -21,14 +22,13 @@ MIVO_INLINE Point3 cross(const Point3& a, const Point3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// Normalized coordinates behind a lens, and their derivative.
+/// Distorted normalized coordinates and their derivative.
 struct Distorted {
   Number x, y;
   Matrix2 derivative;
 };
 
-/// A lens without its tangential part: a point is multiplied by `scale`, whose derivative with
-/// respect to the point is `slope` times the point.
+/// Radial distortion: a point p is multiplied by `scale`, and d scale / dp = `slope` p.
 struct Radial {
   Number scale, slope;
 };
@@ -54,7 +54,7 @@ MIVO_INLINE Radial rational(const WarpParameters& p, Number r2) {
   return {scale, (over.slope - scale * under_slope) / under};
 }
 
-/// Of an angle to the optical axis: distorted radius over the angle, and its derivative.
+/// Equidistant lens: distorted radius over the angle to the optical axis, and its derivative.
 struct Angular {
   Number scale, slope;
 };
@@ -72,7 +72,7 @@ MIVO_INLINE Angular equidistantAngle(const WarpParameters& p, Number angle) {
 }
 
 MIVO_INLINE Radial equidistant(const WarpParameters& p, Number r2) {
-  // On the axis, where all is 0 / 0, and too small to matter elsewhere.
+  // Avoids 0 / 0 on the axis; negligible elsewhere.
   const Number square = r2 + constant(1e-12F);
   const Number r = squareRoot(square);
   const Number angle = arcTangent(r);
@@ -101,16 +101,16 @@ MIVO_INLINE Distorted distorted(const WarpParameters& p, Number x, Number y) {
            radial + slope * y * y + constant(6.0F) * p1 * y + two * p2 * x}};
 }
 
-/// The ray of a pixel, of depth 1, and the derivative of pixels with respect to its x and y.
+/// The ray of a pixel with z = 1, and the derivative of the pixel with respect to its x and y.
 struct Ray {
   Number x, y;
   Matrix2 scale;
 };
 
-// Newton's method doubles the number of digits with each step.
+// Each of Newton's steps doubles the number of correct digits.
 constexpr int kInversionSteps = 6;
 
-/// Undistorted over distorted radius, of an equidistant lens.
+/// Equidistant lens: undistorted over distorted radius.
 MIVO_INLINE Number equidistantInverse(const WarpParameters& p, Number r2) {
   const Number wanted = squareRoot(r2 + constant(1e-12F));
   Number angle = wanted;
@@ -148,7 +148,7 @@ MIVO_INLINE Ray rayOf(const WarpParameters& p, Number u, Number v) {
   return ray;
 }
 
-/// The point of a pixel, moved to where it was when the middle row was read.
+/// The point of a pixel at the time the middle row was read.
 MIVO_INLINE Point3 pointOn(const WarpParameters& p, const Ray& ray, Number v, Number z) {
   const Point3 X = {z * ray.x, z * ray.y, z};
   if (!p.has_row_motion) return X;
@@ -160,7 +160,7 @@ MIVO_INLINE Point3 pointOn(const WarpParameters& p, const Ray& ray, Number v, Nu
           X.z - tau * (turned.z + constant(p.linear[2]))};
 }
 
-/// Row by row: how a pixel moves with the increment.
+/// Derivative of a pixel with respect to the pose increment, row by row.
 struct PixelMotion {
   Number u[6];
   Number v[6];
@@ -176,7 +176,7 @@ MIVO_INLINE void storeTwist(const Point3& X, const Point3& force, Number (&twist
   twist[5] = turn.z;
 }
 
-/// d (pixel) / d (increment): through the projection of X and the lens.
+/// d pixel / d increment, by the chain rule through projection and lens.
 MIVO_INLINE PixelMotion pixelMotion(const Point3& X, const Matrix2& scale) {
   const Number inverse = constant(1.0F) / X.z;
   const Number px = X.x * inverse;
@@ -196,9 +196,9 @@ struct Curvature {
   Number uu, uv, vv;
 };
 
-/// Upper triangle, row by row, of the second derivative of the intensity with respect to the
-/// increment: through the image, through the projection, and the second order of the rotation. The
-/// lens' own curvature is left out: it is hundreds of times weaker than the image's.
+/// Second derivative of the intensity with respect to the pose increment, the upper triangle row by
+/// row. It contains the second derivatives of the image, of the projection and of the rotation.
+/// That of the lens is neglected: it is hundreds of times smaller than the image's.
 MIVO_INLINE void secondDerivative(const Point3& X, const Matrix2& scale, Number gu, Number gv,
                                   const Curvature& image, Number (&second)[21]) {
   const Number half = constant(0.5F);
@@ -232,7 +232,7 @@ MIVO_INLINE void secondDerivative(const Point3& X, const Matrix2& scale, Number 
   const Point3 turned[3] = {cross(X, {mixed[0].x, mixed[1].x, mixed[2].x}),
                             cross(X, {mixed[0].y, mixed[1].y, mixed[2].y}),
                             cross(X, {mixed[0].z, mixed[1].z, mixed[2].z})};
-  // exp(w) X = X + w x X + w x (w x X) / 2, and the gradient g is at right angles to X.
+  // exp(w) X = X + w x X + w x (w x X) / 2, and the gradient g is orthogonal to X.
   const Point3 g = {nx * inverse, ny * inverse, constant(0.0F) - inverse * (nx * px + ny * py)};
   second[0] = q00;
   second[1] = q01;

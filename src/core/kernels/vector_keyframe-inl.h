@@ -6,7 +6,7 @@ namespace mivo {
 namespace kernels {
 namespace HWY_NAMESPACE {
 
-/// A vector that the shared formulas can be written with.
+/// A vector with the operators that the shared formulas use.
 struct Number {
   FloatVector v;
 };
