@@ -16,13 +16,13 @@ using testing::kNan;
 using testing::kWidth;
 using testing::Numbers;
 
-// Of sums over at most 512 floats, in units of the sum of magnitudes.
+// Tolerance of sums over at most 512 floats, relative to the sum of magnitudes.
 constexpr double kSumTolerance = 3e-6;
 const RobustWeight kKinds[] = {RobustWeight::kNone, RobustWeight::kHuber, RobustWeight::kTukey,
                                RobustWeight::kStudentT};
 
-/// Residuals of all sizes: zero, tiny, at the bends of the losses, huge; what is not visible may be
-/// anything.
+/// Residuals of all sizes: zero, tiny, at the thresholds of the losses, huge. Those of invisible
+/// points are arbitrary.
 Array awkwardResiduals(const Array& visible, std::size_t offset, float scale) {
   Numbers numbers(static_cast<unsigned>(visible.size() + 1));
   Array residual = numbers.array(visible.size(), offset, -4.0F * scale, 4.0F * scale);
@@ -128,7 +128,7 @@ TEST(VectorSumsTest, ScoresOfBlocksAgreeWithTheReference) {
       Array v = numbers.array(n, offset, 0.0F, kHeight - 1.0F);
       for (std::size_t i = 0; i < n; ++i) u[i] *= visible[i], v[i] *= visible[i];
       std::vector<kernels::BlockScore> expected(4 * rows, kernels::BlockScore{{1.0F}});
-      std::vector<kernels::BlockScore> actual = expected;  // what is there is added to
+      std::vector<kernels::BlockScore> actual = expected;  // the kernel adds to the previous values
       kernels::scalar().accumulateScores(kind, 2.0F, residual.data(), visible.data(),
                                          jacobian.data(), u.data(), v.data(), n, grid,
                                          expected.data());
@@ -228,7 +228,7 @@ TEST(VectorGeometryTest, AgreesWithTheReference) {
         EXPECT_EQ(run(kernels, actual), run(kernels::scalar(), expected));
         for (std::size_t i = 0; i < n; ++i) {
           EXPECT_EQ(actual.visible[i], expected.visible[i]);
-          // Depths of up to 13 m, weights of up to 400: differences of large numbers.
+          // Depths up to 13 m and weights up to 400: cancellation.
           EXPECT_NEAR(actual.residual[i], expected.residual[i], 0.02F);
           for (std::size_t c = 0; c < 6; ++c) {
             EXPECT_NEAR(actual.columns[c][i], expected.columns[c][i], 0.02F);
