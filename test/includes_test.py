@@ -24,6 +24,7 @@ DECLARED = {header: re.compile(pattern) for header, pattern in {
     "cassert": r"\bassert\(",
     "chrono": r"std::chrono\b",
     "cmath": r"std::(abs|floor|isfinite|lround|pow|round|sqrt)\(",
+    "fmt/ranges.h": r"\bfmt::join\b",  # in fmt/format.h before fmt 11
     "cstdint": r"\bu?int(8|16|32|64)_t\b",
     "cstdio": r"std::(printf|snprintf|fopen)\b",
     "cstdlib": r"std::(getenv|exit|strtod|system)\b",
