@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A sequence filmed through a lens is tracked as precisely as its twin without one: the same scene,
-// path and noise, and for a wide lens the same field of view.
+// A sequence with lens distortion is tracked as precisely as the same scene, path and noise without
+// it; for a wide lens with the same field of view.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -69,7 +69,7 @@ TEST(LensTwins, EightCoefficientsAreAsPreciseAsAPinhole) {
 TEST(LensTwins, AFisheyeOf120DegreesIsNearlyAsPreciseAsAPinhole) {
   const Distortion fisheye = {
       0.03, -0.01, 0.0, 0.0, 0.002, -0.0005, 0.0, 0.0, LensModel::kEquidistant};
-  // 1.47 times as large so far, and to become smaller.
+  // At present 1.47 times as large; to be reduced.
   EXPECT_LT(errorBehind(wideCamera(fisheye, 120.0)), 1.6 * errorBehind(wideCamera({}, 120.0)));
 }
 
