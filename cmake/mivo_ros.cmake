@@ -76,7 +76,8 @@ function(mivo_ros_library name)
   target_precompile_headers(${name} REUSE_FROM mivo_precompiled_ros)
   target_include_directories(${name} SYSTEM PUBLIC ${catkin_INCLUDE_DIRS})
   target_link_libraries(${name} PUBLIC ${catkin_LIBRARIES})
-  add_dependencies(${name} ${${PROJECT_NAME}_EXPORTED_TARGETS})
+  # The headers of messages and parameters; those for Python and others only where all is built.
+  add_dependencies(${name} ${PROJECT_NAME}_generate_messages_cpp ${PROJECT_NAME}_gencfg)
 endfunction()
 
 install(FILES nodelet_plugins.xml DESTINATION ${CATKIN_PACKAGE_SHARE_DESTINATION})

@@ -7,8 +7,11 @@
 #include <mivo/core/odometry.h>
 
 #include <iostream>
+#include <memory>
 #include <opencv2/core/utility.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <string>
+#include <vector>
 
 int main(int argc, char** argv) {
   if (argc != 7) {

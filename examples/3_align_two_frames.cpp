@@ -8,6 +8,7 @@
 
 #include <iostream>
 #include <opencv2/imgcodecs.hpp>
+#include <string>
 
 namespace {
 

@@ -2,6 +2,7 @@
 #include "evaluation/evaluation_plot.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <vector>

@@ -2,6 +2,7 @@
 #include "io/sequence_layout.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>

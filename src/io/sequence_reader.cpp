@@ -2,6 +2,7 @@
 #include "mivo/io/sequence_reader.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cstdint>

@@ -7,6 +7,7 @@
 #include <Eigen/SVD>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "io/table_reader.h"
 #include "io/trajectory_heading.h"

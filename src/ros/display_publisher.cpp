@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <boost/make_shared.hpp>
+#include <cstdint>
 
 #include "ros/node_topics.h"
 #include "ros/topics.h"

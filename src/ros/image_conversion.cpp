@@ -5,6 +5,7 @@
 #include <sensor_msgs/image_encodings.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <initializer_list>
 #include <opencv2/imgproc.hpp>
 #include <string>

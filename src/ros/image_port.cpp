@@ -3,6 +3,8 @@
 
 #include <image_transport/image_transport.h>
 
+#include <utility>
+
 #include "mivo/core/error.h"
 
 namespace mivo {

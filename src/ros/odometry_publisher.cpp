@@ -2,6 +2,7 @@
 #include "ros/odometry_publisher.h"
 
 #include <algorithm>
+#include <cstdint>
 
 #include "ros/node_topics.h"
 #include "ros/pose_conversion.h"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/odometry_services.h"
 
+#include <cstdint>
+
 #include "mivo/core/error.h"
 #include "ros/pose_conversion.h"
 #include "ros/topics.h"

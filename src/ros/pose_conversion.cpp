@@ -2,6 +2,7 @@
 #include "ros/pose_conversion.h"
 
 #include <cmath>
+#include <string>
 
 #include "mivo/core/error.h"
 

@@ -4,6 +4,8 @@
 #include <mivo/OdometryConfig.h>
 #include <ros/console.h>
 
+#include <utility>
+
 #include "ros/parameter_server.h"
 
 namespace mivo {

@@ -2,10 +2,12 @@
 #include "ros/stamp.h"
 
 #include <cmath>
+#include <cstdint>
 #include <iomanip>
 #include <limits>
 #include <locale>
 #include <sstream>
+#include <string>
 
 #include "mivo/core/error.h"
 

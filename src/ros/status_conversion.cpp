@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/status_conversion.h"
 
+#include <cstdint>
+
 namespace mivo {
 namespace {
 

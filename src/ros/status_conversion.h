@@ -3,6 +3,8 @@
 
 #include <mivo/TrackingStatus.h>
 
+#include <cstdint>
+
 #include "mivo/core/tracking_result.h"
 
 namespace mivo {

@@ -2,6 +2,7 @@
 #include "session/tracking_session.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/camera_doubt.h"
 #include "session/twist_covariance.h"

@@ -7,6 +7,7 @@
 #include <opencv2/core.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "mivo/core/error.h"
 #include "synthetic/pixel_noise.h"

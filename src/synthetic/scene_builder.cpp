@@ -2,6 +2,7 @@
 #include "synthetic/scene_builder.h"
 
 #include <cmath>
+#include <utility>
 
 #include "synthetic/pixel_noise.h"
 

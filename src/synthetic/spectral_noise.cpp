@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "synthetic/spectral_noise.h"
 
+#include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>
 

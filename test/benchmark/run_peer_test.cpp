@@ -28,8 +28,8 @@ class RunPeerTest : public ProgramTest {
   std::string output_;
 };
 
-// The path is 55 mm long. OpenCV may give up a frame of images this small, and its RgbdOdometry
-// drifts off on them; but a motion the wrong way round would end 110 mm from the truth.
+// The path is 55 mm long. OpenCV may reject a frame of images this small, and its RgbdOdometry
+// drifts; but an inverted motion would end 110 mm from the truth.
 TEST_F(RunPeerTest, FollowsTheCamera) {
   const ProcessResult result = track("rgbd_icp");
   ASSERT_EQ(result.exit_code, 0) << result.errors;

@@ -26,8 +26,8 @@ TEST(HeapCounterTest, CountsWhatIsAllocated) {
   EXPECT_EQ(numAllocations(), before);
 }
 
-/// Tracks the frames forth and back, `walks` times, and returns how many allocations there were on
-/// the last walk.
+/// Tracks the frames forwards and backwards `walks` times; returns the number of allocations during
+/// the last time.
 std::size_t allocationsOfLastWalk(const testing::Recording& recording, const Parameters& parameters,
                                   int walks, int& keyframes) {
   Odometry odometry(recording.camera, parameters);
@@ -50,8 +50,8 @@ std::size_t allocationsOfLastWalk(const testing::Recording& recording, const Par
   return allocations;
 }
 
-// Buffers grow while the first frames and keyframes come, each of the keyframes that are kept to
-// its own size; after that they serve again and again.
+// Buffers grow during the first frames and keyframes, each kept keyframe to its own size;
+// afterwards they are reused.
 TEST(AllocationTest, AFrameAllocatesNothingOnceTheBuffersHaveGrown) {
   const testing::Recording recording = testing::recordWalk(15);
   for (const Method method : {Method::kHybrid, Method::kMi, Method::kSsd}) {

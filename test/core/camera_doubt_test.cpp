@@ -26,7 +26,7 @@ Camera withCenter(double cx, double cy) {
   return camera;
 }
 
-/// Of a pinhole whose longer side of 640 pixels spans an angle.
+/// A pinhole camera whose longer side of 640 pixels spans this angle.
 double focalLength(double degrees) {
   return 320.0 / std::tan(0.5 * degrees * M_PI / 180.0);
 }

@@ -45,7 +45,7 @@ TEST(CameraTest, RayAndProjectionUndoEachOther) {
   }
 }
 
-// The model of OpenCV's calibration, written out once more, with each coefficient told apart.
+// OpenCV's distortion model, written independently, with a different value for each coefficient.
 TEST(CameraTest, DistortionIsThePlumbBobModel) {
   const Distortion d{0.21, -0.33, 0.0015, -0.0024, 0.12};
   Camera camera = smallCamera();
@@ -82,8 +82,8 @@ TEST(CameraTest, PointsBehindTheCameraHaveNoPixel) {
   }
 }
 
-// A barrel lens: far outside of the image the polynomial turns back and would put points from the
-// side into the middle of the image.
+// A barrel lens: far outside the image the polynomial decreases again and would project points from
+// the side into the middle of the image.
 TEST(CameraTest, WhereThePolynomialFoldsBackThereIsNoPixel) {
   Camera camera = smallCamera();
   camera.distortion.k1 = -0.3;
@@ -109,9 +109,9 @@ TEST(CameraTest, EveryPixelIsWithinTheRadiusOfTheDistortion) {
   }
 }
 
-// Largest difference between a level of the pyramid of a ramp over normalized coordinates and what
-// the level's camera says should be there, in pixels of the level; the border, where the Gaussian
-// meets the edge of the image, left out.
+// Largest difference, in pixels of the level, between a pyramid level of a ramp over normalized
+// coordinates and the ramp as the level's camera projects it. The border is left out, because the
+// Gaussian mirrors the image there.
 double largestShift(const Camera& fine, const Camera& coarse, int level) {
   const double slope = 120.0;
   const auto scene = [=](const Camera& camera, int x, int y) {

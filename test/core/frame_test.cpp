@@ -135,7 +135,7 @@ class FindFaultTest : public ::testing::Test {
 TEST_F(FindFaultTest, AGoodFrameHasNone) {
   EXPECT_EQ(findFault(frame_, camera_), "");
   frame_.depth = cv::Mat(camera_.height, camera_.width, CV_32FC1, cv::Scalar(1));
-  frame_.depth_unit = 0.0;  // of no meaning for meters
+  frame_.depth_unit = 0.0;  // not used for depth in meters
   EXPECT_EQ(findFault(frame_, camera_), "");
 }
 

@@ -62,7 +62,7 @@ TEST(AbsoluteTrajectoryErrorTest, ErrorsByAxisAndByAngle) {
   const Trajectory truth = circle(36);
   Trajectory estimate = truth;
   for (std::size_t i = 0; i < estimate.size(); ++i) {
-    // In turns up and down, so that nothing is gained by moving the whole.
+    // Alternating signs, so that alignment cannot reduce the error.
     estimate[i].pose.translation().z() += i % 2 == 0 ? 0.05 : -0.05;
     estimate[i].pose.rotate(Eigen::AngleAxisd(0.02, Eigen::Vector3d::UnitX()));
   }

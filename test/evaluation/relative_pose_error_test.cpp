@@ -52,9 +52,9 @@ TEST(RelativePoseErrorTest, TurnRateErrorIsARotation) {
 }
 
 TEST(RelativePoseErrorTest, TranslationIsThatOfTheFirstPoseSeenFromTheSecond) {
-  // The camera moves by m and really turns by a right angle; the estimate has not noticed the turn.
-  // Seen from the second pose the first one is at -R^-1 m in truth, at -m by the estimate: sqrt(2)
-  // |m| apart. Seen from the first pose the second one is at m in both.
+  // The camera moves by m and turns by a right angle; the estimate lacks the rotation. Relative to
+  // the second pose the first one is at -R^-1 m in the truth and at -m in the estimate, sqrt(2) |m|
+  // apart. Relative to the first pose the second one is at m in both.
   Eigen::Isometry3d turned = Eigen::Isometry3d::Identity();
   turned.translation() << 1.0, 0.0, 0.0;
   Eigen::Isometry3d straight = turned;
@@ -88,7 +88,7 @@ TEST(RelativePoseErrorTest, PairsWithoutTruthNearbyAreDropped) {
   truth.erase(truth.begin() + 5);
   // Pose 5 has no truth: as a first pose (5, 15) is gone; as a second pose none ends there.
   EXPECT_EQ(relativePoseErrors(truth, estimate, 1.0, kLimit).size(), 19U);
-  // With a generous limit the neighbor is taken, one period off.
+  // With a larger limit the neighbor is used, one period off.
   const auto errors = relativePoseErrors(truth, estimate, 1.0, 0.15);
   ASSERT_EQ(errors.size(), 20U);
   EXPECT_NEAR(errors[5].translation, 0.5 * kPeriod, 1e-12);
@@ -103,7 +103,7 @@ TEST(RelativePoseErrorTest, DeltaBeyondTheEndHasNoPairs) {
 TEST(RelativePoseErrorTest, APoseIsNotComparedWithItself) {
   const Trajectory truth = screw(velocityOf({0.5, 0.0, 0.0}, {0, 0, 0}), 31);
   EXPECT_TRUE(relativePoseErrors(truth, truth, 0.01, kLimit).empty());
-  // Nor are two poses with one true pose.
+  // Two poses with the same true pose give none, either.
   EXPECT_TRUE(relativePoseErrors({truth[15]}, truth, 1.0, 10.0).empty());
 }
 

@@ -16,7 +16,7 @@ TEST(AssociationTest, PairsNearestStampsWithinLimit) {
 }
 
 TEST(AssociationTest, StampIsUsedOnceByTheNearer) {
-  // Both are within the limit of 1.0; the second is nearer, the first gets what is left.
+  // Both are within the limit of 1.0; the second is nearer, the first gets the remaining one.
   EXPECT_EQ(associate({0.97, 0.99}, {1.0}, 0.1), (Pairs{{1, 0}}));
   EXPECT_EQ(associate({0.97, 0.99}, {0.9, 1.0}, 0.1), (Pairs{{0, 0}, {1, 1}}));
 }
@@ -31,7 +31,7 @@ TEST(AssociationTest, EmptyListsHaveNoPairs) {
   EXPECT_TRUE(associate({1.0}, {}, 1.0).empty());
 }
 
-/// Takes the closest of all pairs that are left, again and again.
+/// Repeatedly takes the closest of the remaining pairs.
 Pairs bruteForce(const std::vector<double>& first, const std::vector<double>& second,
                  double limit) {
   std::vector<bool> used_first(first.size());

@@ -66,7 +66,7 @@ TEST(ImageFileTest, EveryDamagedByteIsNoticed) {
     const std::string path = folder.write("damaged" + std::to_string(position), damaged);
     EXPECT_EQ(errorText([&] { readImage(path); }).find(path), 0U) << position;
   }
-  // Noticed here, not by the decoder, which would print a line of its own.
+  // Detected before decoding: the decoder would print a message of its own.
   EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
 }
 
@@ -108,7 +108,8 @@ TEST(ImageFileTest, JpegIsRead) {
 TEST(ImageFileTest, TruncatedJpegIsNoticedAndPaddingDoesNotMatter) {
   const TemporaryFolder folder;
   const std::string bytes = encoded(".jpg", smooth(CV_8UC3));
-  // The same with a preview, which has an end of its own, in a segment behind the first two bytes.
+  // The same with an embedded preview, which has its own end marker, in a segment after the first
+  // two bytes.
   const std::string preview = encoded(".jpg", smooth(CV_8UC1));
   std::string with_preview = bytes;
   with_preview.insert(2, std::string("\xFF\xE1") + static_cast<char>((preview.size() + 2) >> 8) +

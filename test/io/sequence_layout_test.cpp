@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Sequence folders as people have them: each layout, and each way in which lists, images, stamps
-// and cameras differ from TUM's.
+// Sequence folders of other data sets: each layout, and each difference from TUM's in lists,
+// images, stamps and cameras.
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -401,7 +401,7 @@ TEST_F(SequenceLayoutTest, SevenScenes) {
   FrameFault fault;
   again.next(frame, fault);
   EXPECT_EQ(frame.depth.at<unsigned short>(0, 0), 0);  // 65535: no reading
-  // The folder above is told where to look.
+  // The error for the parent folder names the folder to use.
   expectRefusal("a folder in it has: seq-01");
 
   folder_.write("camera-intrinsics.txt", "570 0 320\n0 571 240\n0 0 1\n");  // as 3DMatch has it
@@ -455,7 +455,7 @@ TEST_F(SequenceLayoutTest, Sun3d) {
   expectThreeFrames({1.033333, 1.066666, 1.099999});
   expectCamera(10.0, 11.0, 4.0, 3.0, 1000.0);
   expectNotice("is laid out as SUN3D");
-  // 8193 mm: the highest bit has gone round to the lowest.
+  // 8193 mm: the highest bit is rotated to the lowest.
   for (const auto& entry : std::filesystem::directory_iterator(folder_ / "depth")) {
     cv::imwrite(entry.path().string(), cv::Mat(kHeight, kWidth, CV_16UC1, cv::Scalar(9)));
   }

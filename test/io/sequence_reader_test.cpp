@@ -16,7 +16,7 @@ namespace {
 constexpr int kWidth = 8;
 constexpr int kHeight = 6;
 
-/// Three frames whose pixels say which they are; lists and images are written by hand here.
+/// Three frames with their number as pixel values; the tests write lists and images themselves.
 class SequenceReaderTest : public ::testing::Test {
  protected:
   SequenceReaderTest() {

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <stdexcept>
 #include <string>
@@ -49,7 +50,7 @@ class CameraSessionTest : public ::testing::Test, public CameraListener {
     return *session_;
   }
 
-  // Steps as a thread would, on a clock of our own: sleeps cost nothing.
+  // Steps as the thread does, with a simulated clock: sleeping takes no time.
   void runFor(milliseconds duration) {
     const auto end = now_ + duration;
     while (now_ < end) {
@@ -201,7 +202,7 @@ TEST_F(CameraSessionTest, UnpluggedCameraIsOpenedAgainAndGoesOn) {
   EXPECT_TRUE(heard("Fake Camera was unplugged"));
   world_.connected = true;
   world_.open_fault.reset();
-  world_.time = 0;  // its clock starts anew
+  world_.time = 0;  // its clock restarts
   runFor(milliseconds(6000));
   EXPECT_EQ(session().status().state, CameraState::kStreaming);
   EXPECT_EQ(session().status().reconnections, 1);

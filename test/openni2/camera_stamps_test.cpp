@@ -4,8 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <condition_variable>
 #include <cstdlib>
+#include <iostream>
 #include <mutex>
 #include <random>
 #include <utility>
@@ -18,12 +21,12 @@ namespace mivo {
 namespace {
 
 constexpr double kMeanDelay = 0.003;     // s
-constexpr double kLongestHoldUp = 0.02;  // s, that a busy machine adds
+constexpr double kLongestHoldUp = 0.02;  // s, added by a busy machine
 constexpr double kBusyPart = 0.5;        // of the images
 constexpr double kNanosecondsPerSecond = 1e9;
 
-/// The record that the virtual camera keeps of what it took: host time by device stamp. A line is
-/// there before its image is delivered.
+/// The virtual camera's log of its images: host time by device stamp. Each line is written before
+/// its image is delivered.
 class Truth {
  public:
   explicit Truth(const std::string& path) : path_(path) {}
@@ -32,7 +35,7 @@ class Truth {
     if (!file_.is_open()) {
       file_.open(path_);
     }
-    file_.clear();  // of the end of what was there
+    file_.clear();  // resets the end-of-file state
     std::uint64_t device = 0;
     std::int64_t host = 0;
     int frame = 0;
@@ -48,8 +51,8 @@ class Truth {
   std::map<std::uint64_t, std::int64_t> times_;
 };
 
-/// When images arrive: after they were taken, by a delay that is drawn. The machine's own delays
-/// depend on what else it does; these do not.
+/// Arrival times of images: exposure plus a random delay, which, unlike the machine's own delays,
+/// does not depend on its load.
 class Arrivals {
  public:
   explicit Arrivals(const std::string& truth) : truth_(truth) {}
@@ -69,7 +72,7 @@ class Arrivals {
   std::int64_t arrival_ = 0;
 };
 
-/// A camera that tells the arrival of each image before it hands it on.
+/// A camera that reports the arrival of each image before delivering it.
 class TimedCamera : public CameraDevice {
  public:
   TimedCamera(std::unique_ptr<CameraDevice> device, Arrivals& arrivals)

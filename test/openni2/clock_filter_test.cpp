@@ -25,7 +25,7 @@ struct Simulation {
   double start_delay = 0.2;  // s, of the first image: the stream was being set up
   int seconds = 60;
   unsigned seed = 7;
-  double busy = 0.0;  // s, largest extra delay of what comes while the machine is busy
+  double busy = 0.0;  // s, largest additional delay while the machine is busy
 };
 
 struct Image {
@@ -41,7 +41,7 @@ std::vector<Image> simulate(const Simulation& simulation) {
   std::exponential_distribution<double> delay(1.0);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
   std::vector<Image> images;
-  bool is_busy = true;  // from the start on, then on and off
+  bool is_busy = true;  // at the start, then alternating
   for (int i = 0; i < simulation.seconds * 30; ++i) {
     const std::int64_t taken = kEpoch + i * kSecond / 30;
     const double device = static_cast<double>(taken - kEpoch) * (1.0 + simulation.ppm * 1e-6);
@@ -50,7 +50,7 @@ std::vector<Image> simulate(const Simulation& simulation) {
     const double held_up = is_busy ? simulation.busy * uniform(random) : 0.0;
     for (StreamKind kind : {StreamKind::kColor, StreamKind::kDepth}) {
       double late = held_up + simulation.jitter * delay(random);
-      late += uniform(random) < 0.02 ? 0.04 : 0.0;  // now and then the machine was busy
+      late += uniform(random) < 0.02 ? 0.04 : 0.0;  // occasionally the machine is busy
       late += i == 0 ? simulation.start_delay : 0.0;
       images.push_back({kind, stamp, taken,
                         taken + static_cast<std::int64_t>(late * static_cast<double>(kSecond))});
@@ -68,8 +68,7 @@ struct Outcome {
   double skew = 0.0;  // ppm
 };
 
-// As a session does it: images are held back at first, and longer while the clocks are not
-// compared.
+// As in a session: images are held back at first, and until the clocks have been compared.
 Outcome stampAll(const Simulation& simulation) {
   Outcome outcome;
   ClockFilter filter;
@@ -79,7 +78,7 @@ Outcome stampAll(const Simulation& simulation) {
   for (const Image& image : simulate(simulation)) {
     const auto k = static_cast<std::size_t>(image.kind);
     if (image.stamp <= newest[k]) {
-      continue;  // a driver hands on the images of a stream in order
+      continue;  // a driver delivers the images of a stream in order
     }
     newest[k] = image.stamp;
     filter.observe(image.stamp, image.arrival);

@@ -15,7 +15,7 @@
 
 namespace mivo {
 
-/// What a FakeCamera does, and what was done to it; outlives the devices that are opened.
+/// Controls a FakeCamera and records the calls; outlives the devices that are opened.
 struct FakeCameraWorld {
   std::optional<DeviceFault> open_fault;  ///< opening fails with it
   std::string read_error;                 ///< reading throws it, which is no DeviceError
@@ -23,7 +23,7 @@ struct FakeCameraWorld {
   std::array<bool, kStreamKinds> silent{};
   bool is_recording = false;
   bool has_settings = true;
-  bool deaf = false;  ///< takes no settings
+  bool deaf = false;  ///< ignores settings
   int skip = 1;       ///< 2: every second image is lost
 
   int open_attempts = 0;

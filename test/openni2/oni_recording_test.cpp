@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// A recording made of the virtual camera plays back equal through the same class.
+// A recording of the virtual camera, played by the same class, gives the same images.
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -68,7 +68,8 @@ TEST_F(RecordingTest, PlaysBackEqualAndThenFallsSilent) {
     silent = came ? 0 : silent + 1;
   }
   EXPECT_EQ(unknown, 0);
-  // The player drops what is not fetched in time; comparing takes longer than an image lasts.
+  // The player drops images that are not read in time, and comparing takes longer than a frame
+  // period.
   EXPECT_GE(std::count(seen[StreamKind::kColor].begin(), seen[StreamKind::kColor].end(), true), 3);
   EXPECT_GE(std::count(seen[StreamKind::kDepth].begin(), seen[StreamKind::kDepth].end(), true), 3);
   EXPECT_TRUE(seen[StreamKind::kColor][kFrames - 1]);

@@ -31,7 +31,7 @@ TEST_F(OpenNi2DummyTest, StreamsAndIsClosedAgainAndAgain) {
     const auto received = receive(*device, 2);
     EXPECT_EQ(received.at(StreamKind::kColor).front().image.size(), cv::Size(320, 240));
   }
-  // Closed, and the library is good for another device.
+  // After closing it, the library can open another device.
   const auto device = OpenNi2Device::open(request("any"));
   startBoth(*device);
   EXPECT_GE(receive(*device, 1).at(StreamKind::kColor).size(), 1U);

@@ -19,7 +19,7 @@
 namespace {
 
 constexpr unsigned kWatchdog = 100;  // s: the SDK's recorder is known to lock up
-// Of the first image before the sequence moves: what is recorded, not something that is waited for.
+// How long the first image is shown before the sequence starts: part of the recording.
 constexpr std::chrono::milliseconds kStillTime(500);
 constexpr int kWholeSequence = 1000000;
 

@@ -43,7 +43,7 @@ class UsbPermissionTest : public ::testing::Test {
     rmdir(root_.c_str());
   }
 
-  // What an ordinary user gets; root may write everything.
+  // As an ordinary user: root may write everything.
   DeviceFault classifyAsUser() const {
     const pid_t child = fork();
     if (child == 0) {

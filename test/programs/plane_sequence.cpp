@@ -10,7 +10,8 @@
 namespace mivo {
 namespace {
 
-// The plane n . X = d of the world, meters: slanted, so that depth tells the six motions apart.
+// The plane n . X = d of the world, meters: slanted, so that depth constrains all six directions of
+// motion.
 const Eigen::Vector3d kNormal = Eigen::Vector3d(0.2, -0.1, 1.0).normalized();
 constexpr double kDistance = 1.5;
 

@@ -11,7 +11,7 @@
 
 namespace mivo {
 
-/// Runs the programs on real recordings, and is skipped on a machine without them.
+/// Runs the programs on real recordings. Skipped without MIVO_DATA.
 class RecordingTest : public ProgramTest {
  protected:
   void SetUp() override {
@@ -23,7 +23,7 @@ class RecordingTest : public ProgramTest {
     data_ = data;
   }
 
-  /// Folder of a recording. Where there are recordings it has to be there.
+  /// Folder of a recording. Fails if MIVO_DATA is set and lacks it.
   std::string recording(const std::string& name) const {
     const std::string path = data_ + "/" + name;
     EXPECT_TRUE(std::filesystem::is_directory(path)) << path << " is not in MIVO_DATA";

@@ -14,7 +14,7 @@ TEST_F(RecordingTest, OfficeIsTrackedToCentimeters) {
   ASSERT_EQ(evaluated.exit_code, 0) << evaluated.errors;
   EXPECT_EQ(valueOf(tracked.output, "frames"), 49);  // one of 50 repeats the color image before it
   EXPECT_EQ(valueOf(tracked.output, "lost"), 0);
-  // The truth itself is good to a centimeter.
+  // The ground truth is accurate to a centimeter.
   EXPECT_LT(valueOf(evaluated.output, "ate_rmse_m"), 0.03);
 }
 

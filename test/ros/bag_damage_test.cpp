@@ -50,7 +50,7 @@ TEST_F(RecordingTest, SplitBagsAreOne) {
     m.has_info = false;  // none in the second part
   });
   SmallBag::write(folder_ / "a_2.bag", 15, 20);
-  // In any order: what counts is when it was recorded.
+  // In any order: parts are sorted by their recording time.
   BagSource source({folder_ / "a_2.bag", folder_ / "a_0.bag", folder_ / "a_1.bag"}, {});
   EXPECT_EQ(framesOf(source), stamps(0, 20));
   EXPECT_EQ(source.notice(), "");

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // A bag of a real recording gives the bits of its folder.
+#include <utility>
+
 #include "programs/recording.h"
 
 namespace mivo {

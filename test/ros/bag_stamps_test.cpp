@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Bags whose stamps or calibrations are strange: which frames come out, and what is said.
+// Bags with unusual stamps or calibrations: the frames that are delivered, and the messages.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -76,7 +76,7 @@ TEST_F(BagStampsTest, ASingleStampInTheFutureIsLeftOut) {
 TEST_F(BagStampsTest, TimeSetBackBeginsOneNewTime) {
   writeStamps([](int i) { return SmallBag::stamp(i < 20 ? i : i - 20); });
   BagSource source(path_, {});
-  EXPECT_EQ(source.size(), 36U);  // four are lost until it is sure
+  EXPECT_EQ(source.size(), 36U);  // four are skipped until the jump is confirmed
   Frame frame;
   FrameFault fault;
   int new_times = 0;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <cmath>
 #include <limits>
 #include <random>
 
@@ -61,7 +62,7 @@ TEST(BaseOdometryTest, TwistIsThatOfTheBaseWithTheLeverArm) {
 }
 
 TEST(BaseOdometryTest, PoseCovarianceIsThatOfSampledErrors) {
-  // The oracle: errors drawn in the camera's axes, carried through the exact poses.
+  // Compared with samples: random errors in the camera's axes, transformed by the exact poses.
   TrackingResult result;
   result.T_odom_camera = makePose(0.5, -0.2, 1.5, {0.3, -0.8, 0.4});
   const Matrix6 random = (Matrix6() << 1, .2, 0, .1, 0, .3, 0, 2, .4, 0, 0, .1, .5, 0, 1, .2, 0, 0,

@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <utility>
+
 #include "ros/camera_conversion.h"
 #include "ros/expect_error.h"
 #include "ros/status_conversion.h"

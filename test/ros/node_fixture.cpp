@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kRetry(20);  // for conditions that no message announces
 
-// The clock of one test begins so much after that of the test before: it never goes back.
+// Each test's clock starts this much later than the previous one's, so that time never goes back.
 constexpr double kTestPeriod = 1000.0;  // s
 constexpr int kWarmUpFrames = 200;
 constexpr std::chrono::milliseconds kWarmUpPeriod(20);
@@ -90,7 +90,7 @@ void NodeTest::connect() {
     return color_.getNumSubscribers() > 0 && depth_.getNumSubscribers() > 0 &&
            camera_info_.getNumSubscribers() > 0;
   }));
-  // A subscriber cannot know when a publisher has noticed it: frames are sent until they come back.
+  // A subscriber cannot know when a publisher is connected: frames are sent until they arrive.
   const auto connected = [this] {
     return !statuses_.empty() && (!odometries_.empty() || !camera_is_known_);
   };

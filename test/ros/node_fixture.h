@@ -38,7 +38,7 @@ class NodeTest : public ::testing::Test {
   /// the base is to be known when odometry is wanted. All topics are connected afterwards, and
   /// nothing has been tracked.
   void load();
-  /// Loads it and waits for nothing else.
+  /// Loads it without waiting.
   void loadOnly();
   /// Unloads it. Returns whether the manager did.
   bool unload();
@@ -70,15 +70,15 @@ class NodeTest : public ::testing::Test {
   /// on different connections overtake each other. Returns the last of the stamps.
   int publishUntil(const std::function<bool()>& condition, int i, int at);
 
-  /// Waits for what messages bring about; false when it has not come about in time.
+  /// Waits for a condition that depends on messages; false after a timeout.
   bool waitFor(const std::function<bool()>& condition,
                std::chrono::milliseconds time = std::chrono::seconds(10));
 
-  /// Whether it is so now.
+  /// Whether the condition holds now.
   bool holds(const std::function<bool()>& condition);
 
   ros::Time stampOf(int i) const;
-  // To be asked by the conditions of waitFor and holds.
+  // For the conditions of waitFor and holds.
   bool hasStatus(int at) { return statuses_.count(stampOf(at)) > 0; }
   bool hasOdometry(int at) { return odometries_.count(stampOf(at)) > 0; }
 
@@ -97,7 +97,7 @@ class NodeTest : public ::testing::Test {
   /// The same without waiting: a condition of waitFor.
   bool findDiagnosis(const std::string& task, const std::function<bool(const std::string&)>& fits,
                      diagnostic_msgs::DiagnosticStatus& found) const;
-  /// The latest entry of a task, to be asked by conditions as well.
+  /// The latest entry of a task; also for conditions.
   diagnostic_msgs::DiagnosticStatus latestDiagnosis(const std::string& task) const;
   static std::string valueOf(const diagnostic_msgs::DiagnosticStatus& status,
                              const std::string& key);
@@ -134,7 +134,7 @@ class NodeTest : public ::testing::Test {
   // Where frame i is filmed, in the world of the plane.
   std::function<Eigen::Isometry3d(int)> filmed_from_ = planePose;
 
-  std::mutex mutex_;  // guards what follows; locked while a condition is asked
+  std::mutex mutex_;  // guards the members below; locked while a condition is evaluated
   std::condition_variable changed_;
   std::map<ros::Time, nav_msgs::Odometry> odometries_;
   std::map<ros::Time, TrackingStatus> statuses_;

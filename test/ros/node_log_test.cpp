@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the node tells in the log and how often: states, and frames without a pose.
+// The node's log messages and their rate: states, and frames without a pose.
 #include <gtest/gtest.h>
 
 #include "ros/skipped_frames.h"
@@ -41,7 +41,7 @@ TEST(StateLogTest, TellsOtherDirectionsThoughNotAllTheTime) {
   StateLog log;
   EXPECT_TRUE(log.add(degraded(0), at(0.0)));
   EXPECT_FALSE(log.add(degraded(1), at(1.0)));  // too early
-  EXPECT_FALSE(log.add(degraded(0), at(6.0)));  // told already
+  EXPECT_FALSE(log.add(degraded(0), at(6.0)));  // already logged
   EXPECT_TRUE(log.add(degraded(1), at(7.0)));
   EXPECT_FALSE(log.add(degraded(1), at(20.0)));
 }
@@ -50,7 +50,7 @@ TEST(SkippedFramesTest, CountsByReasonAndTellsEachOnceAMinute) {
   SkippedFrames frames;
   EXPECT_TRUE(frames.add("late", at(0.0)));
   EXPECT_FALSE(frames.add("late", at(1.0)));
-  EXPECT_TRUE(frames.add("broken", at(2.0)));  // one reason does not hide another
+  EXPECT_TRUE(frames.add("broken", at(2.0)));  // each reason has its own rate
   EXPECT_TRUE(frames.add("late", at(61.0)));
   const SkipCounts counts = frames.counts();
   EXPECT_EQ(4U, counts.total);

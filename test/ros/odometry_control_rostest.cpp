@@ -122,8 +122,8 @@ TEST_F(NodeTest, TrajectoryIsSavedAndWrittenAsItGrows) {
 
 class LostFramesTest : public NodeTest {
  protected:
-  /// Five frames: nothing to start from in the first, nothing to be seen in the fourth. Returns the
-  /// stamps of the trajectory.
+  /// Five frames: the first cannot initialize, the fourth is black. Returns the stamps of the
+  /// trajectory.
   std::vector<double> saveFiveFrames() {
     const TemporaryFolder folder;
     publishCameraOnBase();
@@ -260,7 +260,7 @@ TEST_F(NodeTest, ParametersOfTheNodeAreChecked) {
 
 TEST_F(NodeTest, ParametersMeanWhatTheyDoInAConfigurationFile) {
   const ros::NodeHandle handle(ns_ + "/odometry");
-  // What rosparam makes of min_cost_change: 1e-4, and of switches in quotes.
+  // As rosparam parses `min_cost_change: 1e-4` and quoted booleans.
   setParameter("min_cost_change", "1e-4");
   setParameter("geometric_term", "off");
   setParameter("levels", "4");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// The help of another odometry: wheels drive a meter behind a covered lens.
+// Motion guess from wheel odometry: the robot drives a meter with the lens covered.
 #include <gtest/gtest.h>
 #include <tf2_ros/transform_broadcaster.h>
 
@@ -17,18 +17,18 @@ constexpr double kTolerance = 0.006;  // as in odometry_rostest
 constexpr double kWheelTolerance = 0.03;
 
 constexpr int kLastSeen = 9;    // frame before the lens is covered
-constexpr int kSeenAgain = 40;  // frame with which it is not any more
+constexpr int kSeenAgain = 40;  // first frame after it
 constexpr int kLast = 46;
 
-// A meter along the plane, for the robot drives past it.
+// A meter along the plane, past which the robot drives.
 const Eigen::Vector3d kDrive = Eigen::Vector3d(1.0, 0.0, -0.2).normalized();
-constexpr double kTurn = -0.2;  // rad, back towards what was seen before
+constexpr double kTurn = -0.2;  // rad, back towards the previous view
 
 class GuessTest : public NodeTest {
  protected:
   GuessTest() : wheels_(frame("wheels")) {
     setParameter("guess_frame_id", wheels_);
-    // Between two frames nothing else moves: the transform of a frame comes just before its images.
+    // The transform of a frame is published just before its images.
     setParameter("tf_timeout", 0.5);
     filmed_from_ = [this](int i) { return T_elsewhere(i) * cameraAt(i); };
     spoil_ = [this] {
@@ -39,14 +39,14 @@ class GuessTest : public NodeTest {
     publishCameraOnBase();
   }
 
-  /// Where the camera is, in the world of the plane that was seen first.
+  /// Pose of the camera in the world of the first plane.
   static Eigen::Isometry3d cameraAt(int i) {
     const double driven =
         std::clamp((i - kLastSeen) / static_cast<double>(kSeenAgain - kLastSeen), 0.0, 1.0);
     Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
     T.translation() = driven * kDrive;
     T.linear() = expSo3({0.0, driven * kTurn, 0.0});
-    // It goes on as before where it is seen.
+    // Visible frames continue as before.
     return planePose(std::min(i, kLastSeen)) * T * planePose(std::max(0, i - kSeenAgain));
   }
 
@@ -54,7 +54,8 @@ class GuessTest : public NodeTest {
     return cameraOnBase() * cameraAt(i) * cameraOnBase().inverse();
   }
 
-  /// Another part of the plane, from further away and turned: nothing of it was seen before.
+  /// Another part of the plane, from another distance and angle, without overlap with earlier
+  /// views.
   Eigen::Isometry3d T_elsewhere(int i) const {
     Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
     if (is_elsewhere_ && i >= kSeenAgain) {

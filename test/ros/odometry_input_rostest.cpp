@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What the odometry nodelet does with messages that are broken, late, early, missing or compressed.
+// The odometry nodelet with messages that are broken, late, early, missing or compressed.
 #include <gtest/gtest.h>
 #include <mivo/SaveTrajectory.h>
 #include <rosgraph_msgs/Log.h>
 #include <sensor_msgs/CompressedImage.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <opencv2/imgcodecs.hpp>
+#include <utility>
 
 #include "mivo/core/se3.h"
 #include "programs/plane_sequence.h"
@@ -109,7 +111,7 @@ TEST_F(NodeTest, LiveAPairIsNotHeldBackForTheNextImage) {
   publishCameraOnBase();
   setParameter("drop_frames", true);
   load();
-  // At first a pair waits whether the next image fits better; then its period is known.
+  // At first a pair waits for the next image, which could fit better; then the period is known.
   constexpr int kLast = 20;
   constexpr double kDelay = 0.012;
   int i = 0;
@@ -122,7 +124,7 @@ TEST_F(NodeTest, LiveAPairIsNotHeldBackForTheNextImage) {
   }
   ASSERT_TRUE(waitFor([&] { return isDone(kLast); }));
   EXPECT_GT(statusOf(kLast).processing_latency, 0.0);
-  // There is no next image, and only after half a second a pair goes on without one.
+  // Without a next image, a pair is processed after half a second.
   EXPECT_LT(statusOf(kLast).processing_latency, 0.4);
 }
 
@@ -138,7 +140,7 @@ TEST_F(NodeTest, ImagesThatWaitForTheCalibrationAreNotLost) {
   diagnosis("tracking", [](const std::string& text) { return text == "no frames"; });
   camera_info_ = node_.advertise<sensor_msgs::CameraInfo>("rgb/camera_info", 1, true);
   camera_info_.publish(calibration_);
-  // Which of the first messages reach this node is up to the connections; the last one does.
+  // The first messages may be lost until topics are connected; the last one arrives.
   ASSERT_TRUE(waitFor([&] { return hasStatus(4); }));
   EXPECT_EQ(5U, statusOf(4).frames);
 }
@@ -181,7 +183,8 @@ TEST_F(NodeTest, AJumpBackOfTimeGoesOnAtTheLastPose) {
   load();
   for (int i = 0; i < 5; ++i) track(i, i + 60);  // two seconds later
   const int segment = statusOf(64).segment;
-  // The bag from the start again, with the camera where it was: four frames are lost to the doubt.
+  // The bag from the start again, with the camera where it was: four frames are skipped
+  // until the jump is confirmed.
   for (int i = 0; i < 5; ++i) track(4, i);
   for (int i = 5; i < 9; ++i) track(i, i);
   ASSERT_TRUE(waitFor([&] { return isDone(8); }));

@@ -15,11 +15,11 @@
 namespace mivo {
 namespace {
 
-// The tracker's error on these small images is 3 mm and mrad after ten frames, in which the base
-// moves by 90 mm: a frame or axis mixed up is far above.
+// The tracker's error on these small images is 3 mm and 3 mrad after ten frames, during which the
+// base moves by 90 mm: a wrong frame or axis gives far more.
 constexpr double kTolerance = 0.006;
 
-// Between two frames, for what connects while they come: tracking alone takes next to no time.
+// Pause between frames while topics connect; tracking itself takes almost no time.
 constexpr std::chrono::milliseconds kPatience(100);
 
 template <typename Array>
@@ -119,7 +119,7 @@ TEST_F(NodeTest, DisplayTopicsShowThePlane) {
   const auto all = [&] {
     return !clouds.empty() && !markers.empty() && !references.empty() && !residuals.empty();
   };
-  // Topics connect while frames come; what is shown once is shown to a late listener too.
+  // Topics connect while frames are sent; latched messages reach late subscribers, too.
   for (int i = 0; i < 40 && !waitFor(all, kPatience); ++i) track(i);
   ASSERT_TRUE(waitFor(all));
   const std::lock_guard<std::mutex> lock(mutex_);
@@ -164,7 +164,7 @@ TEST_F(NodeTest, LostFramesHaveAStatusButNoOdometry) {
   EXPECT_NE(TrackingStatus::REASON_NONE, statusOf(4).reason);
   diagnosis("tracking", [](const std::string& text) { return text.find("lost") == 0; });
   spoil_ = [] {};
-  track(5);  // light again: found again
+  track(5);  // light is back: tracking again
   EXPECT_EQ(TrackingStatus::TRACKING, statusOf(5).state);
   ASSERT_TRUE(waitFor([&] { return isDone(5); }));
   EXPECT_FALSE(holds([&] { return hasOdometry(4); }));

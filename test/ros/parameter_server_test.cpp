@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What needs no ROS master; reading from the server is part of odometry_rostest.
+// The parts that need no ROS master; reading from the server is part of odometry_rostest.
 #include "ros/parameter_server.h"
 
 #include <gtest/gtest.h>
@@ -74,7 +74,7 @@ TEST(ToConfigTest, ComesBackTheSame) {
   }
 }
 
-/// What Odometry.cfg made of the table, as text.
+/// The text that Odometry.cfg generates from the table.
 std::map<std::string, std::string> valuesOf(const dynamic_reconfigure::Config& config) {
   std::map<std::string, std::string> values;
   for (const auto& entry : config.bools) values[entry.name] = entry.value ? "true" : "false";

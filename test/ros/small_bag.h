@@ -5,6 +5,7 @@
 #include <sensor_msgs/CameraInfo.h>
 #include <sensor_msgs/Image.h>
 
+#include <cstdint>
 #include <functional>
 #include <string>
 
@@ -12,8 +13,8 @@
 
 namespace mivo {
 
-/// Bags of small images with the topics of openni2, as strangers record them: each message can be
-/// changed before it is written.
+/// Bags of small images with the topics of openni2. Each message can be changed before it is
+/// written.
 class SmallBag {
  public:
   static constexpr int kWidth = 32;

@@ -6,7 +6,7 @@
 namespace mivo {
 namespace {
 
-/// Images at 30 Hz that come 20 ms after they were taken, depth stamped later by an offset.
+/// Images at 30 Hz that arrive 20 ms after exposure; the stamps of depth are later by an offset.
 ClockOffset cameraWith(double offset, double playing_rate = 1.0, double depth_latency = 0.02) {
   ClockOffset clocks;
   for (int i = 0; i < 30; ++i) {
@@ -22,7 +22,7 @@ TEST(ClockOffsetTest, IsWhatDepthIsStampedLater) {
   EXPECT_NEAR(cameraWith(0.0).seconds().value(), 0.0, 1e-6);
   EXPECT_NEAR(cameraWith(0.7).seconds().value(), 0.7, 1e-6);
   EXPECT_NEAR(cameraWith(-0.7).seconds().value(), -0.7, 1e-6);
-  // A way that takes longer looks like a clock that is slow.
+  // A longer transmission looks like a slow clock.
   EXPECT_NEAR(cameraWith(0.0, 1.0, 0.08).seconds().value(), -0.06, 1e-6);
 }
 

@@ -9,8 +9,8 @@
 namespace mivo {
 namespace {
 
-/// What became of frames: their numbers, "|" before one with which a new time begins, in brackets
-/// those that were late, in braces those that were astray.
+/// The decisions on frames as text: their numbers, with "|" before the first frame of a new time,
+/// late frames in brackets and outliers in braces.
 std::string fateOf(const std::vector<double>& stamps) {
   std::string text;
   FrameOrder<int> order(
@@ -51,13 +51,13 @@ TEST(FrameOrderTest, AlternatingClocksGiveTheLaterOne) {
 }
 
 TEST(FrameOrderTest, TimeIsSetBackWhenSeveralAgreeAndOnlyOnce) {
-  // A looped bag: four frames are lost to the doubt, and one segment begins.
+  // A looped bag: four frames are skipped until the jump is confirmed, then one segment begins.
   EXPECT_EQ(fateOf({10.0, 10.1, 10.2, 1.0, 1.1, 1.2, 1.3, 1.4, 1.5, 1.6}),
             "0 1 2 (3) (4) (5) (6) | 7 8 9 ");
 }
 
 TEST(FrameOrderTest, LateFramesThatDoNotAgreeNeverSetTimeBack) {
-  // Reversed, the same stamp for ever, and further apart than a camera's frames.
+  // Reversed stamps, constant stamps, and stamps further apart than a camera's frames.
   EXPECT_EQ(fateOf({9.0, 8.0, 7.0, 6.0, 5.0, 4.0, 3.0}), "0 (1) (2) (3) (4) (5) (6) ");
   EXPECT_EQ(fateOf({9.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0}), "0 (1) (2) (3) (4) (5) (6) ");
   EXPECT_EQ(fateOf({90.0, 1.0, 11.0, 21.0, 31.0, 41.0, 51.0}), "0 (1) (2) (3) (4) (5) (6) ");
@@ -70,7 +70,7 @@ TEST(FrameOrderTest, ASingleStampFarAheadIsAstray) {
 
 TEST(FrameOrderTest, PausesAndSlowClocksGoOn) {
   EXPECT_EQ(fateOf({1.0, 61.0, 61.1, 61.2}), "0 1 2 3 ");
-  // Milliseconds taken for seconds: each frame is far ahead of the last.
+  // Milliseconds read as seconds: each frame is far ahead of the previous one.
   EXPECT_EQ(fateOf({0.0, 33333.0, 66666.0, 99999.0}), "0 1 2 3 ");
   EXPECT_EQ(fateOf({1.0, 61.0}), "0 1 ");
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Random stamps: the pairs are those of brute force, however the streams arrive.
+// Random stamps: for any order of arrival the pairs are those of a brute-force search.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ constexpr ImageStream kD = ImageStream::kDepth;
 
 using Pairs = std::vector<std::pair<std::size_t, std::size_t>>;
 
-/// Takes the closest of all pairs that are left and cross none, again and again.
+/// Repeatedly takes the closest of the remaining pairs that cross no other.
 Pairs bruteForce(const std::vector<double>& first, const std::vector<double>& second,
                  double limit) {
   Pairs pairs;
@@ -118,7 +118,7 @@ TEST(StampPairerOracleTest, ACameraThatLosesImagesGivesAllPairsWithinTheToleranc
     StampPairer<std::size_t> pairer(
         options, [&](std::size_t& i, std::size_t& j) { pairs.emplace_back(i, j); },
         [](ImageStream, std::size_t&) {});
-    // Each stream in its order, depth up to 40 ms late.
+    // Each stream in order, depth up to 40 ms late.
     for (std::size_t i = 0, j = 0; i < stamps[0].size() || j < stamps[1].size();) {
       const bool is_color =
           j == stamps[1].size() ||

@@ -12,8 +12,8 @@ namespace {
 constexpr ImageStream kC = ImageStream::kColor;
 constexpr ImageStream kD = ImageStream::kDepth;
 
-/// Stamps in whole milliseconds. Writes "(c,d)" for pairs and "c" or "d" for images without
-/// partner, in the order in which they go out.
+/// Stamps in whole milliseconds. The log has "(c,d)" for pairs and "c" or "d" for images without
+/// partner, in the order of output.
 class StampPairerTest : public ::testing::Test {
  protected:
   void setUp(const PairingOptions& options) {
@@ -53,7 +53,7 @@ TEST_F(StampPairerTest, APairWaitsUntilNoImageToComeCanFitBetter) {
   push(kC, 19);
   EXPECT_EQ(log_, "");  // it is nearer, and the next depth could be nearer still
   push(kD, 27);
-  EXPECT_EQ(log_, "");  // nearer to 19: 10 would be left to 0; but the next color may be at 20
+  EXPECT_EQ(log_, "");  // nearer to 19, and 10 would go to 0; but the next color may be at 20
   push(kC, 40);
   EXPECT_EQ(log_, "(0,10)(19,27)");
 }
@@ -92,7 +92,7 @@ TEST_F(StampPairerTest, WithoutPartnerOnceNoneCanCome) {
   EXPECT_EQ(log_, "");  // 0 and 20 are 20 ms apart, the limit, and 33 is nearer
   push(kD, 40);
   EXPECT_EQ(log_, "");
-  push(kC, 66);  // 33 and 40 are a pair: 20 is left to 0
+  push(kC, 66);  // 33 and 40 are a pair: 20 goes to 0
   EXPECT_EQ(log_, "(0,20)(33,40)");
   push(kD, 87);
   EXPECT_EQ(log_, "(0,20)(33,40)c66");
@@ -118,7 +118,7 @@ TEST_F(StampPairerTest, ASilentPartnerHoldsBackNoMoreThanTheCapacity) {
   for (int i = 0; i < 5; ++i) push(kC, 33 * i);
   EXPECT_EQ(log_, "c0c33");
   EXPECT_EQ(pairer_->numWaiting(kC), 3U);
-  push(kD, 100);  // late, but what is nearest still waits
+  push(kD, 100);  // late, but the nearest is still waiting
   pairer_->flush();
   EXPECT_EQ(log_, "c0c33c66(99,100)c132");
   EXPECT_EQ(pairer_->numWaiting(kC), 0U);

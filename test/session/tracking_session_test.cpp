@@ -12,7 +12,7 @@
 namespace mivo {
 namespace {
 
-// The tracker's error on this sequence is far below; a mixed-up frame is far above.
+// The tracker's error on this sequence is far smaller, that of a wrong frame far larger.
 constexpr double kTolerance = 0.003;  // m and rad
 
 Frame makeFrame(int i, double stamp) {

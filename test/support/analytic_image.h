@@ -7,8 +7,8 @@
 #include <opencv2/core/mat.hpp>
 #include <vector>
 
-// Smooth images known in closed form, with exact gradient and Hessian: the derivative of a raster
-// would only be as good as its interpolation.
+// Smooth images in closed form, with exact gradient and Hessian: derivatives of a raster would be
+// limited by its interpolation.
 
 namespace mivo::testing {
 

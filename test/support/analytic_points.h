@@ -11,8 +11,8 @@
 #include "support/point_derivatives.h"
 #include "support/projection.h"
 
-// Points of a keyframe whose image is known in closed form, and what the keyframe shows of them
-// after an increment.
+// Points of a keyframe whose image is known in closed form, and their intensities after an
+// increment.
 
 namespace mivo::testing {
 

@@ -5,9 +5,8 @@
 
 namespace mivo::testing {
 
-/// Allocations on the heap by the calling thread so far, whoever asked for them: new, malloc and
-/// its kin, and therefore OpenCV's matrices too. Linking heap_counter.cpp replaces glibc's
-/// functions.
+/// Number of heap allocations of the calling thread so far, by new, malloc and related functions,
+/// and thus also by OpenCV's matrices. Linking heap_counter.cpp replaces glibc's functions.
 std::size_t numAllocations();
 
 }  // namespace mivo::testing

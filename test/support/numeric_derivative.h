@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <limits>
 
-// Central differences, the oracle of every analytic derivative.
+// Central differences, with which analytic derivatives are compared.
 
 namespace mivo::testing {
 
@@ -65,7 +65,7 @@ double relativeError(const Eigen::MatrixBase<A>& value, const Eigen::MatrixBase<
 /// function). A wrong derivative leaves an error that no step removes.
 template <typename Matrix, typename Numeric>
 bool convergesTo(const Matrix& analytic, const Numeric& numeric, double step, double floor) {
-  constexpr double kWorstOrder = 8.0;  // half of what the second order promises
+  constexpr double kWorstOrder = 8.0;  // half of the factor of second order
   const double coarse = relativeError(analytic, numeric(step));
   const double fine = relativeError(analytic, numeric(0.25 * step));
   return fine <= floor || (fine <= coarse / kWorstOrder && coarse < 0.2);

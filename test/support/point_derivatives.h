@@ -3,8 +3,8 @@
 
 #include "mivo/core/se3.h"
 
-// The derivatives of a point's intensity in double precision, written with matrices: what the
-// kernels are held against. They are themselves checked against central differences.
+// The derivatives of a point's intensity in double precision, written with matrices. The kernels
+// are compared with them; they are compared with central differences.
 
 namespace mivo::testing {
 

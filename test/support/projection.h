@@ -9,7 +9,7 @@
 namespace mivo::testing {
 
 /// Pixel of a point in the optical frame, meters, in doubles: what the kernels are compared with.
-/// Nothing for a point behind the camera or outside of the lens' range. The pixel may lie outside
+/// Empty for a point behind the camera or outside of the lens' range. The pixel may lie outside
 /// of the image.
 inline std::optional<Eigen::Vector2d> project(const Camera& camera, const Eigen::Vector3d& point) {
   if (!(point.z() > 0.0)) return std::nullopt;

@@ -2,13 +2,14 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "core/terms/joint_histogram.h"
 
-// Mutual information written down as it is defined, slow and in double precision: the oracle of the
-// fast one. It shares no code with it but the struct IntensityRange.
+// Mutual information by its definition, slow and in double precision. The tested implementation
+// shares no code with it but the struct IntensityRange.
 
 namespace mivo::testing {
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "support/scene.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>

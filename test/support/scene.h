@@ -21,13 +21,13 @@ struct Rectangle {
   std::uint64_t texture;  ///< seed of the texture
 };
 
-/// Textured rectangles: what a camera sees of them is known exactly, by casting a ray per pixel.
+/// Textured rectangles, whose images are rendered exactly by one ray per pixel.
 using Scene = std::vector<Rectangle>;
 
 /// A wall 2 m in front of the camera at the origin, larger than any view of it here.
 Scene wallScene();
 
-/// The same wall with a board half a meter in front of it: depth edges, and something to tell
+/// The same wall with a board half a meter in front of it: depth edges, and parallax to distinguish
 /// rotation from translation.
 Scene boardScene();
 
@@ -56,7 +56,7 @@ struct Sensor {
 Frame render(const Scene& scene, const Camera& camera, const Eigen::Isometry3d& T_world_camera,
              const Light& light = {}, const Sensor& sensor = {});
 
-/// The same with the rows read one after the other: while the rows are read, the camera moves from
+/// The same with a rolling shutter: while the rows are read, the camera moves from
 /// T retract(-twist / 2) to T retract(twist / 2), T being its pose at the middle row.
 Frame renderRolling(const Scene& scene, const Camera& camera,
                     const Eigen::Isometry3d& T_world_camera, const Vector6& twist);

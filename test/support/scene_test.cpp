@@ -8,7 +8,7 @@
 #include "support/projection.h"
 #include "support/random_pose.h"
 
-// The fixture checks itself first: if it lies, every test built on it does.
+// Tests of the fixture: tests that use it are only as good as it is.
 
 namespace mivo::testing {
 namespace {

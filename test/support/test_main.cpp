@@ -11,6 +11,6 @@ constexpr int kSkipped = 77;  // SKIP_RETURN_CODE in mivo_compiler.cmake
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);
   const int result = RUN_ALL_TESTS();
-  if (result != 0) return result;  // a failure is never hidden by a test that was skipped
+  if (result != 0) return result;  // a failure takes precedence over skipped tests
   return testing::UnitTest::GetInstance()->skipped_test_count() > 0 ? kSkipped : 0;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// What ctest learns from a test program, tried on the disabled tests of this one.
+// The exit codes of a test program, tested with the disabled tests of this one.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -9,7 +9,7 @@
 namespace mivo {
 namespace {
 
-// Run by the tests below alone, which look at the exit codes.
+// Run by the tests below only, which check the exit codes.
 TEST(TestMainExample, DISABLED_Passes) {}
 
 TEST(TestMainExample, DISABLED_Skips) {

@@ -16,7 +16,7 @@ namespace mivo::testing {
 /// Gray level of a wall at a place on it, meters to the right and down.
 using Paint = std::function<double(double x, double y)>;
 
-/// A wall two meters in front of a camera that looks straight at it, wherever it slides along it.
+/// A wall two meters in front of a camera that faces it and moves parallel to it.
 struct Wall {
   Paint paint;
   double distance = 2.0;       ///< m
@@ -49,12 +49,12 @@ inline double stripes(double s) {
          15.0 * std::sin(34.0 * s + 2.0);
 }
 
-/// Stripes along x: nothing of the motion along them is seen.
+/// Stripes along x: motion along them is not observable.
 inline double horizontalStripes(double /*x*/, double y) {
   return stripes(y);
 }
 
-/// Something to see in every direction.
+/// Texture in every direction.
 inline double texture(double x, double y) {
   return 128.0 + 0.6 * (stripes(0.8 * x + 0.6 * y) - 128.0) +
          0.6 * (stripes(0.7 - 0.5 * x + 0.9 * y) - 128.0);

@@ -152,7 +152,7 @@ TEST(CameraPath, StaysClearOfTheFurnitureAndSeesThingsInRange) {
           ASSERT_GT(depths.front(), 0.0F)
               << scene_name << " " << name << " " << t;  // no hole in the room
           EXPECT_GT(depths[depths.size() / 20], 0.45F) << scene_name << " " << name << " " << t;
-          // Of a hall a good part lies beyond the range, but never all.
+          // Much of a hall is beyond the range of the sensor, but never all.
           const std::size_t seen = depths.size() * (scene_name == "hall" ? 4 : 19) / 20;
           EXPECT_LT(depths[seen], 4.2F) << scene_name << " " << name << " " << t;
         }

@@ -50,7 +50,7 @@ TEST(DepthSensor, NoiseGrowsWithTheSquareOfTheDepth) {
     cv::meanStdDev(sensor.sense(wallAt(static_cast<float>(z)), 5), mean, deviation);
     const double expected = 0.06 * z * z / (575.0 * 0.075);
     EXPECT_NEAR(sensor.deviation(z), expected, 1e-12);
-    // Some 8500 independent cells: the deviation is known to 1 %.
+    // About 8500 independent cells: the deviation is accurate to 1 %.
     EXPECT_NEAR(deviation[0] / 5000.0 / expected, 1.0, 0.05) << z;
     EXPECT_NEAR(mean[0] / 5000.0, z, 0.1 * expected) << z;
   }
@@ -70,8 +70,8 @@ TEST(DepthSensor, ReadingsAreStepsOfTheDisparity) {
   }
 }
 
-// A screen in front of a wall throws the projector's shadow: the columns between the two
-// disparities fx b / z, to its left.
+// A screen in front of a wall casts a shadow of the projector on its left: the columns between the
+// two disparities fx b / z.
 TEST(DepthSensor, ShadowIsAsWideAsTheDifferenceOfDisparities) {
   DepthSensorOptions options = ideal();
   options.holes = true;

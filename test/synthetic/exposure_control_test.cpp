@@ -41,7 +41,7 @@ TEST(ExposureControl, ReactsAfterItsDelayAndNotBefore) {
     for (int k = 0; k < kStep + delay; ++k) {
       EXPECT_NEAR(p[static_cast<std::size_t>(k)], p[0], 1e-9 * p[0]) << delay << " " << k;
     }
-    // The first answer: half of the (logarithmic) way to twice the exposure.
+    // The first correction: half of the logarithmic distance to twice the exposure.
     EXPECT_NEAR(p[static_cast<std::size_t>(kStep + delay)] / p[0], std::sqrt(2.0), 0.01) << delay;
     EXPECT_NEAR(p.back() / p[0], 2.0, 0.01) << delay;
   }

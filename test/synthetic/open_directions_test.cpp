@@ -9,8 +9,8 @@
 #include "synthetic/renderer.h"
 #include "synthetic/sequence_generator.h"
 
-// Scenes of one surface leave directions open: moved along them the camera sees the same image and
-// the same depth, to the rounding of the ray caster; moved in any other way it does not.
+// Scenes of one surface have open directions: motion along them changes neither image nor depth, up
+// to rounding in the ray caster; every other motion does.
 
 namespace mivo {
 namespace {
@@ -21,8 +21,8 @@ constexpr double kDepthRounding = 3e-5;  // m
 
 struct Open {
   std::string scene;
-  std::vector<Eigen::Isometry3d> open;    // motions of the world that change nothing
-  std::vector<Eigen::Isometry3d> closed;  // and such that do
+  std::vector<Eigen::Isometry3d> open;  // motions of the world that change neither image nor depth
+  std::vector<Eigen::Isometry3d> closed;  // motions that do
 };
 
 Eigen::Isometry3d shift(double x, double y, double z) {
@@ -69,7 +69,7 @@ class OpenDirections : public testing::Test {
   static Eigen::Isometry3d somewhere(const Renderer& renderer, std::uint64_t seed) {
     return CameraPath("slide", renderer.scene().viewpoint, seed).poseAt(1.3);
   }
-  // The largest difference of gray values, of light that would make 255 of its brightest.
+  // The largest difference of gray values, where the brightest light gives 255.
   static double difference(const View& a, const View& b) {
     return 255.0 * cv::norm(a.light, b.light, cv::NORM_INF) / cv::norm(a.light, cv::NORM_INF);
   }
@@ -105,7 +105,7 @@ TEST_F(OpenDirections, SomethingChangesAcrossThem) {
   }
 }
 
-// The stripes of a floor run in a direction of the seed: that of its texture's y.
+// The direction of the stripes on a floor depends on the seed: it is the y axis of the texture.
 TEST_F(OpenDirections, AStripedFloorIsOpenAlongItsStripes) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     const Renderer renderer = rendererOf("floor", seed);
@@ -144,7 +144,7 @@ TEST_F(OpenDirections, DepthIsThatOfTheSurface) {
   }
 }
 
-// Of the light that the lamps are said to give all arrives everywhere, however it changes.
+// All of the lamps' stated light arrives everywhere, for every lighting.
 TEST_F(OpenDirections, LightIsEven) {
   const Renderer renderer = rendererOf("blank", 1);
   const SceneLighting lighting("left_right", {300, 1.0 / 30.0}, renderer.scene());

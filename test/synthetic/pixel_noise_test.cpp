@@ -11,7 +11,7 @@ namespace {
 
 TEST(GaussianTable, HoldsTheQuantilesOfTheNormalDistribution) {
   const float* table = gaussianTable();
-  // Of the distribution function, from tables: Phi(1.959964) = 0.975, Phi(1) = 0.841345.
+  // Values of the distribution function from tables: Phi(1.959964) = 0.975, Phi(1) = 0.841345.
   EXPECT_NEAR(table[static_cast<int>(0.975 * 65536)], 1.959964, 2e-3);
   EXPECT_NEAR(table[static_cast<int>(0.841345 * 65536)], 1.0, 1e-3);
   EXPECT_NEAR(table[65535], 4.33, 0.02);  // Phi(4.33) = 1 - 0.5 / 65536
@@ -36,7 +36,7 @@ TEST(GaussianTable, HasUnitVarianceAndTheKurtosisOfANormal) {
   EXPECT_NEAR(fourth, 3.0, 2e-2);
 }
 
-// Neighboring pixels and the channels of one pixel must not resemble each other.
+// Neighboring pixels and the channels of a pixel must be uncorrelated.
 TEST(HashOf, GivesUncorrelatedNoiseToNeighbors) {
   constexpr int kSize = 256;
   double across = 0.0;

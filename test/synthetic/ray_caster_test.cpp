@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -35,7 +36,8 @@ struct Nearest {
   float distance = std::numeric_limits<float>::infinity();
   float u = 0.0F;
   float v = 0.0F;
-  float margin = 1.0F;  // from the edge of any patch on the way: rounding decides below 1e-4
+  float margin =
+      1.0F;  // from the edge of any patch on the ray: below 1e-4 the hit depends on rounding
 };
 
 // origin + t direction = patch origin + u edge_u + v edge_v, for each patch, in doubles.
@@ -115,7 +117,7 @@ TEST(RayCaster, RoundShapesLieWithinTheirTessellation) {
     // directions.
     EXPECT_GE(packet.distance[k], 2.5F - 1e-4F);
     EXPECT_LE(packet.distance[k], 2.5F + 0.5F * 0.0045F);
-    // The parameters name the point that was hit.
+    // The parameters are those of the point that was hit.
     const Eigen::Vector3f there = ball.position(packet.u[k], packet.v[k]);
     const Eigen::Vector3f hit =
         Eigen::Vector3f(packet.origin_x[k], packet.origin_y[k], packet.origin_z[k]) +

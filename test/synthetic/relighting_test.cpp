@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>
 
@@ -69,7 +70,7 @@ TEST(Relighting, BlackFramesShowReadNoiseOnly) {
   for (std::size_t k = 0; k < kFrames; ++k) {
     if (cv::mean(white[k])[0] < 20.0) {
       ++black;
-      // Nothing of the scene is left: the two recordings cannot be told apart.
+      // No texture is left: the two recordings are equal.
       EXPECT_EQ(cv::norm(white[k], dark[k], cv::NORM_INF), 0.0) << k;
       EXPECT_GT(cv::mean(white[k])[0], 0.5) << k;
     }
@@ -129,7 +130,7 @@ TEST(Relighting, GammaKeepsBlackAndWhite) {
 TEST(Relighting, AutoExposureFollowsTenFramesLate) {
   const std::vector<cv::Mat> automatic = relit("auto_exposure", grayWall());
   const std::vector<cv::Mat> fixed = relit("oscillating", grayWall());
-  // Until the first measurement acts both are the same light.
+  // Until the first measurement takes effect, both lightings are equal.
   for (std::size_t k = 0; k < 10; ++k) {
     EXPECT_NEAR(cv::mean(automatic[k])[0], cv::mean(fixed[k])[0], 0.5) << k;
   }

@@ -13,8 +13,8 @@ namespace {
 
 const SequenceTime kTime{301, 1.0 / 30.0};
 
-// The stated lux are those of the lamps' own geometry: inverse squares, cosines and reflected
-// light.
+// The stated illuminance follows from the geometry of the lamps: inverse squares, cosines and
+// reflected light.
 TEST(SceneLighting, IlluminanceAtTheRoomsCenterIsAsStated) {
   for (const std::string& name : sceneNames()) {
     const Renderer renderer(sharedScene(name), xtionCamera(32, 24), 1);

@@ -224,7 +224,7 @@ TEST(SequenceGenerator, DepthOffsetShiftsTheDepthImage) {
   const cv::Mat exact = film(options)[0].depth;
   options.sensor.depth_offset = {3.0, 2.0};
   const cv::Mat shifted = film(options)[0].depth;
-  // Pixel p shows what belongs to p + offset (to the rounding of a unit).
+  // Pixel p has the value of p + offset, up to the rounding of a unit.
   EXPECT_LE(difference(shifted(cv::Rect(0, 0, 157, 118)), exact(cv::Rect(3, 2, 157, 118))), 1.0);
 }
 

@@ -66,8 +66,9 @@ struct Match {
   Eigen::Vector3d point;  // in the live camera
 };
 
-// Whether the pixels around lie on one plane: inverse depth is then linear in the image. A step of
-// a few centimeters is enough to mix two surfaces in a pixel, whose parallax no warp can follow.
+// Whether the surrounding pixels are on one plane: inverse depth is then linear in the image. A
+// depth step of a few centimeters mixes two surfaces in a pixel, whose parallax a warp cannot
+// represent.
 bool isPlane(const cv::Mat& depth, int x, int y) {
   constexpr int kRadius = 3;
   const float inverse = 1.0F / depth.at<float>(y, x);
@@ -122,7 +123,7 @@ Vector6 gaussNewtonStep(const SyntheticFrame& reference, const SyntheticFrame& l
   Vector6 b = Vector6::Zero();
   for (const Match& m : match(reference, live, camera)) {
     const float r = residual(reference, live, m);
-    if (std::abs(r) > 20.0F) continue;  // highlights wander with the viewer
+    if (std::abs(r) > 20.0F) continue;  // highlights move with the viewer
     const float gx = 0.5F * m.live.sum([&](int x, int y) {
       return green(live.color, x + 1, y) - green(live.color, x - 1, y);
     });
@@ -141,7 +142,7 @@ Vector6 gaussNewtonStep(const SyntheticFrame& reference, const SyntheticFrame& l
   return H.ldlt().solve(b);
 }
 
-// How far from the stated pose the images would rather have the live camera.
+// The distance from the stated pose to the one that fits the images best.
 Vector6 preferredCorrection(const SyntheticFrame& reference, SyntheticFrame live,
                             const Camera& camera) {
   const Eigen::Isometry3d T_world_stated = live.T_world_camera;
@@ -250,7 +251,7 @@ TEST(Warping, FullSensorStillAgreesWithTheTruth) {
   }
 }
 
-// A lens is drawn by the camera model that readers of the sequence use.
+// A lens is rendered with the camera model that readers of the sequence use.
 TEST(Warping, LensDistortionAgreesToo) {
   GeneratorOptions distorted = options(true);
   distorted.camera.distortion = {0.2624, -0.9531, -0.0054, 0.0026, 1.1633};

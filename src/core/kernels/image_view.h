@@ -7,7 +7,7 @@
 namespace mivo {
 namespace kernels {
 
-/// Rows of gray levels, `stride` values apart: floats, or bytes where `data` is null.
+/// Rows of gray levels, `stride` values apart: floats, or bytes if `data` is null.
 struct ImageView {
   const float* data;
   const unsigned char* bytes;
@@ -21,11 +21,11 @@ struct ImageView {
 struct ContrastView {
   const float* pairs;
   std::ptrdiff_t stride;
-  float constant;  ///< gray levels, is added to the deviation
+  float constant;  ///< added to the deviation, gray levels
 };
 
-/// Rows of readings: meters, or steps of `unit` meters where `meters` is null. What is not within
-/// (0, kMaxReading) is no reading.
+/// Rows of depth readings: in meters, or in steps of `unit` meters if `meters` is null. Valid
+/// readings are within (0, kMaxReading).
 struct DepthView {
   const float* meters;
   const std::uint16_t* steps;

@@ -1,6 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
+<<<<<<< HEAD
 // A pixel of a keyframe turned into a point with derivatives: included after lens_formulas-inl.h,
 // and as that.
+=======
+// The point of a keyframe's pixel, and its derivatives. This file is included once for floats and
+// once for the vectors of each instruction set, and therefore has no include guard. Define before
+// including it: MIVO_FORMULAS, a namespace with a type Number that has + - * /, and with
+// constant(float), squareRoot(), arcTangent() and tangent(); and MIVO_INLINE, the specifier for
+// inlining.
+>>>>>>> machine
 
 namespace mivo {
 namespace kernels {
@@ -14,16 +22,99 @@ MIVO_INLINE Point3 cross(const Point3& a, const Point3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
+<<<<<<< HEAD
 /// The ray of a pixel, of depth 1, and the derivative of pixels with respect to its x and y.
+=======
+/// Distorted normalized coordinates and their derivative.
+struct Distorted {
+  Number x, y;
+  Matrix2 derivative;
+};
+
+/// Radial distortion: a point p is multiplied by `scale`, and d scale / dp = `slope` p.
+struct Radial {
+  Number scale, slope;
+};
+
+MIVO_INLINE Radial plumbBob(const WarpParameters& p, Number r2) {
+  const Number k1 = constant(p.k1);
+  const Number k2 = constant(p.k2);
+  const Number k3 = constant(p.k3);
+  const Number two = constant(2.0F);
+  return {constant(1.0F) + r2 * (k1 + r2 * (k2 + r2 * k3)),
+          two * (k1 + r2 * (two * k2 + r2 * constant(3.0F) * k3))};
+}
+
+MIVO_INLINE Radial rational(const WarpParameters& p, Number r2) {
+  const Number k4 = constant(p.k4);
+  const Number k5 = constant(p.k5);
+  const Number k6 = constant(p.k6);
+  const Number two = constant(2.0F);
+  const Radial over = plumbBob(p, r2);
+  const Number under = constant(1.0F) + r2 * (k4 + r2 * (k5 + r2 * k6));
+  const Number under_slope = two * (k4 + r2 * (two * k5 + r2 * constant(3.0F) * k6));
+  const Number scale = over.scale / under;
+  return {scale, (over.slope - scale * under_slope) / under};
+}
+
+/// Equidistant lens: distorted radius over the angle to the optical axis, and its derivative.
+struct Angular {
+  Number scale, slope;
+};
+
+MIVO_INLINE Angular equidistantAngle(const WarpParameters& p, Number angle) {
+  const Number k1 = constant(p.k1);
+  const Number k2 = constant(p.k2);
+  const Number k3 = constant(p.k3);
+  const Number k4 = constant(p.k4);
+  const Number a2 = angle * angle;
+  return {constant(1.0F) + a2 * (k1 + a2 * (k2 + a2 * (k3 + a2 * k4))),
+          constant(1.0F) + a2 * (constant(3.0F) * k1 +
+                                 a2 * (constant(5.0F) * k2 +
+                                       a2 * (constant(7.0F) * k3 + a2 * constant(9.0F) * k4)))};
+}
+
+MIVO_INLINE Radial equidistant(const WarpParameters& p, Number r2) {
+  // Avoids 0 / 0 on the axis; negligible elsewhere.
+  const Number square = r2 + constant(1e-12F);
+  const Number r = squareRoot(square);
+  const Number angle = arcTangent(r);
+  const Angular lens = equidistantAngle(p, angle);
+  const Number scale = angle * lens.scale / r;
+  return {scale, (lens.slope / (constant(1.0F) + square) - scale) / square};
+}
+
+MIVO_INLINE Radial radialOf(const WarpParameters& p, Number r2) {
+  if (p.lens == Lens::kEquidistant) return equidistant(p, r2);
+  return p.lens == Lens::kRational ? rational(p, r2) : plumbBob(p, r2);
+}
+
+MIVO_INLINE Distorted distorted(const WarpParameters& p, Number x, Number y) {
+  const Number p1 = constant(p.p1);
+  const Number p2 = constant(p.p2);
+  const Number two = constant(2.0F);
+  const Number r2 = x * x + y * y;
+  const Radial lens = radialOf(p, r2);
+  const Number radial = lens.scale;
+  const Number slope = lens.slope;
+  const Number mixed = slope * x * y + two * (p1 * x + p2 * y);
+  return {x * radial + two * p1 * x * y + p2 * (r2 + two * x * x),
+          y * radial + p1 * (r2 + two * y * y) + two * p2 * x * y,
+          {radial + slope * x * x + two * p1 * y + constant(6.0F) * p2 * x, mixed, mixed,
+           radial + slope * y * y + constant(6.0F) * p1 * y + two * p2 * x}};
+}
+
+/// The ray of a pixel with z = 1, and the derivative of the pixel with respect to its x and y.
+>>>>>>> machine
 struct Ray {
   Number x, y;
   Matrix2 scale;
 };
 
-// Newton's method doubles the number of digits with each step.
+// Each of Newton's steps doubles the number of correct digits.
 constexpr int kInversionSteps = 6;
 
-/// Undistorted over distorted radius, of an equidistant lens.
+/// Equidistant lens: undistorted over distorted radius.
 MIVO_INLINE Number equidistantInverse(const WarpParameters& p, Number r2) {
   const Number wanted = squareRoot(r2 + constant(1e-12F));
   Number angle = wanted;
@@ -61,7 +152,7 @@ MIVO_INLINE Ray rayOf(const WarpParameters& p, Number u, Number v) {
   return ray;
 }
 
-/// The point of a pixel, moved to where it was when the middle row was read.
+/// The point of a pixel at the time the middle row was read.
 MIVO_INLINE Point3 pointOn(const WarpParameters& p, const Ray& ray, Number v, Number z) {
   const Point3 X = {z * ray.x, z * ray.y, z};
   if (!p.has_row_motion) return X;
@@ -73,7 +164,7 @@ MIVO_INLINE Point3 pointOn(const WarpParameters& p, const Ray& ray, Number v, Nu
           X.z - tau * (turned.z + constant(p.linear[2]))};
 }
 
-/// Row by row: how a pixel moves with the increment.
+/// Derivative of a pixel with respect to the pose increment, row by row.
 struct PixelMotion {
   Number u[6];
   Number v[6];
@@ -89,7 +180,7 @@ MIVO_INLINE void storeTwist(const Point3& X, const Point3& force, Number (&twist
   twist[5] = turn.z;
 }
 
-/// d (pixel) / d (increment): through the projection of X and the lens.
+/// d pixel / d increment, by the chain rule through projection and lens.
 MIVO_INLINE PixelMotion pixelMotion(const Point3& X, const Matrix2& scale) {
   const Number inverse = constant(1.0F) / X.z;
   const Number px = X.x * inverse;
@@ -126,9 +217,15 @@ MIVO_INLINE Curvature curvatureOnRay(const WarpParameters& p, const Ray& ray, Nu
           through_image.vv + along_x * lens.x.vv + along_y * lens.y.vv};
 }
 
+<<<<<<< HEAD
 /// Upper triangle, row by row, of the second derivative of the intensity with respect to the
 /// increment: through image and lens, through the projection, and the second order of the rotation.
 /// @param curvature  that of curvatureOnRay()
+=======
+/// Second derivative of the intensity with respect to the pose increment, the upper triangle row by
+/// row. It contains the second derivatives of the image, of the projection and of the rotation.
+/// That of the lens is neglected: it is hundreds of times smaller than the image's.
+>>>>>>> machine
 MIVO_INLINE void secondDerivative(const Point3& X, const Matrix2& scale, Number gu, Number gv,
                                   const Curvature& curvature, Number (&second)[21]) {
   const Number half = constant(0.5F);
@@ -158,7 +255,7 @@ MIVO_INLINE void secondDerivative(const Point3& X, const Matrix2& scale, Number 
   const Point3 turned[3] = {cross(X, {mixed[0].x, mixed[1].x, mixed[2].x}),
                             cross(X, {mixed[0].y, mixed[1].y, mixed[2].y}),
                             cross(X, {mixed[0].z, mixed[1].z, mixed[2].z})};
-  // exp(w) X = X + w x X + w x (w x X) / 2, and the gradient g is at right angles to X.
+  // exp(w) X = X + w x X + w x (w x X) / 2, and the gradient g is orthogonal to X.
   const Point3 g = {nx * inverse, ny * inverse, constant(0.0F) - inverse * (nx * px + ny * py)};
   second[0] = q00;
   second[1] = q01;

@@ -5,8 +5,8 @@
 
 #include "core/kernels/kernels.h"
 
-// The readable reference of every kernel. The vector kernels finish the last few points of an array
-// with it.
+// The reference: each kernel in plain C++. The vector kernels call it for the last points of an
+// array, which do not fill a vector.
 
 namespace mivo {
 namespace kernels {
@@ -71,7 +71,7 @@ void gradientRow(const ImageView& image, int y, float* squared);
 void maximaRow(const ImageView& image, int y, const float* const squared[3], float threshold,
                std::uint8_t* maximal);
 
-// The same from column `first` (at least 1) on.
+// As the kernels of these names, but from column `first` >= 1 on.
 void gradientTail(const ImageView& image, int y, int first, float* squared);
 void maximaTail(const ImageView& image, int y, const float* const squared[3], float threshold,
                 int first, std::uint8_t* maximal);

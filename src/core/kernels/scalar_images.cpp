@@ -9,9 +9,9 @@ namespace kernels {
 namespace reference {
 namespace {
 
-constexpr int kRadius = 2;  // of the Gaussian and of the window of contrast
+constexpr int kRadius = 2;  // of the Gaussian and of the window of the contrast map
 
-/// Index mirrored at the first and the last entry, which are not repeated.
+/// Index mirrored at the first and the last entry, without repeating them (OpenCV's REFLECT_101).
 int mirrored(int i, int n) {
   if (n == 1) return 0;
   while (i < 0 || i >= n) i = i < 0 ? -i : 2 * (n - 1) - i;

@@ -14,7 +14,7 @@ void binPositions(const float* value, std::size_t n, float low, float scale, flo
   for (std::size_t i = 0; i < n; ++i) {
     const float wanted = (value[i] - low) * scale;
     const float position = std::min(std::max(wanted, 0.0F), top);
-    bin[i] = static_cast<std::int32_t>(position);  // not negative: truncation is the floor
+    bin[i] = static_cast<std::int32_t>(position);  // not negative, so truncating rounds down
     fraction[i] = position - static_cast<float>(bin[i]);
   }
 }

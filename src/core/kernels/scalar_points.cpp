@@ -14,7 +14,7 @@ struct Pixel2 {
   bool is_valid;
 };
 
-/// What a point is multiplied by.
+/// The factor of radial distortion.
 float radialScale(const WarpParameters& p, float r2) {
   if (p.lens == Lens::kEquidistant) {
     const float r = std::sqrt(r2 + 1e-12F);
@@ -51,7 +51,7 @@ struct Corner {
 };
 
 Corner cornerAt(float u, float v) {
-  const int column = static_cast<int>(u);  // never negative: truncation is the floor
+  const int column = static_cast<int>(u);  // not negative, so truncating rounds down
   const int row = static_cast<int>(v);
   return {column, row, u - static_cast<float>(column), v - static_cast<float>(row)};
 }
@@ -97,7 +97,7 @@ std::size_t warpPoints(const WarpParameters& p, const PointsView& points, std::s
           q[2] + tau * (p.angular[0] * q[1] - p.angular[1] * q[0] + p.linear[2])};
       pixel = projectPoint(p, moved);
     }
-    // Written so that NaN is outside.
+    // Comparisons with NaN are false, so that NaN is outside.
     const bool is_visible = pixel.is_valid && pixel.u >= 0.0F && pixel.v >= 0.0F &&
                             pixel.u < p.right && pixel.v < p.bottom;
     u[i] = is_visible ? pixel.u : 0.0F;

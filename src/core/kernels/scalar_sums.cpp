@@ -11,7 +11,7 @@ namespace {
 float readingAt(const DepthView& depth, std::ptrdiff_t offset) {
   const float z = depth.meters != nullptr ? depth.meters[offset]
                                           : static_cast<float>(depth.steps[offset]) * depth.unit;
-  return z > 0.0F && z < kMaxReading ? z : 0.0F;  // NaN is no reading either
+  return z > 0.0F && z < kMaxReading ? z : 0.0F;  // NaN is no reading, too
 }
 
 }  // namespace
@@ -123,6 +123,11 @@ std::size_t geometricResiduals(const WarpParameters& live, const Motion& T_ref_l
       shift[1] = tau * (w[2] * q[0] - w[0] * q[2] + live.linear[1]);
       shift[2] = tau * (w[0] * q[1] - w[1] * q[0] + live.linear[2]);
     }
+<<<<<<< HEAD
+=======
+    // The ray of the nearest pixel is less than a pixel away from that of the point: distortion is
+    // negligible over that distance.
+>>>>>>> machine
     const float inverse = 1.0F / (q[2] + shift[2]);
     const NormalizedPoint ray = {(q[0] + shift[0]) * inverse, (q[1] + shift[1]) * inverse};
     const NormalizedPoint step = beforeLens(live, ray,
@@ -139,7 +144,7 @@ std::size_t geometricResiduals(const WarpParameters& live, const Motion& T_ref_l
     residual[i] = weight * (N[0] * (P[0] - X[0]) + N[1] * (P[1] - X[1]) + N[2] * (P[2] - X[2]));
     visible[i] = 1.0F;
     ++count;
-    // The increment moves P to exp(w) P + v, so that r grows by n . v + (P x n) . w.
+    // The increment moves P to exp(w) P + v, which adds n . v + (P x n) . w to r.
     jacobian[0][i] = -weight * N[0];
     jacobian[1][i] = -weight * N[1];
     jacobian[2][i] = -weight * N[2];

@@ -12,18 +12,18 @@
 #include "core/kernels/scalar.h"
 #include "core/terms/robust_weight.h"
 
-// One source for all instruction sets: Highway includes this file once for each of them, with
-// HWY_NAMESPACE, the widths and the instructions set accordingly. So do the parts below, which
+// One source for all instruction sets: Highway includes this file, and the parts it includes, once
+// for each of them, with HWY_NAMESPACE and the vector types defined accordingly. The parts
 // therefore have no include guards.
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/kernels/vector.cpp"
 #include <hwy/foreach_target.h>  // must come before highway.h
 #include <hwy/highway.h>
-// Highway's logarithms and angles.
+// Highway's logarithm and arc tangent.
 #include <hwy/contrib/math/math-inl.h>
 
-// The fallback without vectors is our own reference.
+// Without vector instructions the reference is used.
 #if HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
 #include "core/kernels/vector_points-inl.h"
 //

@@ -8,7 +8,7 @@
 namespace mivo {
 namespace kernels {
 
-/// The vector kernels that this processor can run, the fastest last; none where mivo is built
+/// The vector kernels that this processor supports, the fastest last. Empty if mivo was built
 /// without them.
 std::vector<Backend> vectorBackends();
 

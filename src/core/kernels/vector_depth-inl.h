@@ -21,14 +21,14 @@ inline void depthRow(const DepthView& depth, int y, int first, int width, float 
       const auto steps = hn::PromoteTo(Integers(), hn::LoadU(d16, depth.steps + row + x));
       z = hn::Mul(hn::ConvertTo(d, steps), all(depth.unit));
     }
-    // Comparisons with NaN are false: no reading.
+    // Comparisons with NaN are false, so that NaN is no reading.
     const FloatMask is_reading = hn::And(hn::Ge(z, all(lowest)), hn::Le(z, all(highest)));
     hn::StoreU(hn::IfThenElseZero(is_reading, z), d, meters + x);
   }
   reference::depthRow(depth, y, x, width, lowest, highest, meters);
 }
 
-/// Sum and number of the readings that lie on a surface.
+/// Sum and number of the readings on the surface of the middle one.
 struct SurfaceMean {
   FloatVector sum, count;
 };
@@ -45,7 +45,7 @@ inline void reduceDepthRow(const DepthRows& fine, int width, float ratio, int fi
   const Floats d;
   const auto lanes = static_cast<int>(hn::Lanes(d));
   if (first == 0 && width > 0) {
-    // The first pixel has no left neighbor: it alone goes to the reference.
+    // The first pixel has no left neighbor: the reference handles it.
     reference::reduceDepthRow(fine, std::min(width, 2), ratio, 0, coarse);
     first = 1;
   }
@@ -73,7 +73,7 @@ inline void keepSmooth(const float* const depth[3], int width, float edge_ratio,
                        std::uint8_t* candidates) {
   const Floats d;
   const hn::Rebind<std::uint8_t, Floats> d8;
-  // Marked away twice is marked away: vectors may overlap.
+  // Vectors may overlap, for rejecting a candidate twice changes nothing.
   const auto keep = [&](int x) HWY_ATTR {
     const FloatVector center = hn::LoadU(d, depth[1] + x);
     FloatVector lowest = center;

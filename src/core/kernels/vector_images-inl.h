@@ -14,7 +14,7 @@ HWY_INLINE int mirroredIndex(int i, int n) {
   return i;
 }
 
-/// Mirrors the first and last two of n entries into the two places before and after them.
+/// Fills the two entries before and after a row of n by mirroring.
 template <typename Value>
 HWY_INLINE void mirrorEnds(Value* row, int n) {
   for (int k = 1; k <= kWindowRadius; ++k) {
@@ -43,7 +43,7 @@ HWY_INLINE V gaussian(V a, V b, V c, V e, V f, V four, V six) {
   return hn::Add(hn::Add(a, f), hn::Add(hn::Mul(six, c), hn::Mul(four, hn::Add(b, e))));
 }
 
-/// Five values under (1, 4, 6, 4, 1), down the rows: bytes become exact sums of 16 bits.
+/// Vertical pass of the Gaussian, (1, 4, 6, 4, 1): bytes give exact 16-bit sums.
 HWY_INLINE void gaussianDown(const FiveRows<unsigned char>& rows, int width, std::uint16_t* sums) {
   const hn::ScalableTag<std::uint16_t> d;
   const hn::Rebind<std::uint8_t, decltype(d)> d8;
@@ -82,7 +82,7 @@ HWY_INLINE void gaussianDown(const FiveRows<float>& rows, int width, float* sums
   }
 }
 
-/// The same along a row of sums, at every second entry. There are two entries beyond each end.
+/// Horizontal pass, at every second entry. The row has two more entries at each end.
 HWY_INLINE void gaussianAlong(const std::uint16_t* sums, int coarse_width, float* coarse) {
   const hn::ScalableTag<std::uint16_t> d;
   const hn::Half<decltype(d)> half;
@@ -140,7 +140,7 @@ HWY_INLINE void reduceRows(const Value* data, const ImageView& fine, float* coar
 
 inline void reduce(const ImageView& fine, float* coarse, std::ptrdiff_t coarse_stride,
                    float* scratch) {
-  // The last whole vectors read up to four entries beyond the mirrored ones.
+  // The last vectors read up to four entries beyond the mirrored ones.
   if (fine.data != nullptr) {
     reduceRows(fine.data, fine, coarse, coarse_stride, scratch + 16);
   } else {
@@ -149,7 +149,7 @@ inline void reduce(const ImageView& fine, float* coarse, std::ptrdiff_t coarse_s
   }
 }
 
-/// Of three bytes down the rows: the sum under (1, 2, 1), and the largest.
+/// Vertical pass of the binomial, (1, 2, 1), and the maximum of the three bytes.
 HWY_INLINE void binomialDown(const std::uint8_t* const rows[3], int width, std::uint16_t* sums,
                              std::uint8_t* maxima) {
   const hn::ScalableTag<std::uint16_t> d;
@@ -171,7 +171,7 @@ HWY_INLINE void binomialDown(const std::uint8_t* const rows[3], int width, std::
   }
 }
 
-/// The same along a row of them, with one entry beyond each end. @param row the image's.
+/// Horizontal pass, over a row with one more entry at each end. @param row the image's.
 HWY_INLINE void binomialAlong(const std::uint16_t* sums, const std::uint8_t* maxima,
                               const std::uint8_t* row, int width, std::uint8_t largest,
                               std::uint8_t* smoothed) {
@@ -214,7 +214,7 @@ inline void smooth(const ImageView& image, std::uint8_t largest, std::uint8_t* s
   }
 }
 
-/// Sums of five values and of their squares, down the rows.
+/// Vertical sums of five values and of their squares.
 HWY_INLINE void momentsDown(const FiveRows<float>& rows, int width, float* sums, float* squares) {
   const Floats d;
   const auto lanes = static_cast<int>(hn::Lanes(d));
@@ -284,8 +284,8 @@ inline double contrastMap(const ImageView& image, float* pairs, std::ptrdiff_t p
   return variances;
 }
 
-/// Interpolates a row of the map to the image's row y: means and deviations of each map pixel and
-/// of the one right of the last. Reads and writes whole vectors.
+/// Interpolates the contrast map vertically at the image's row y: mean and deviation of each map
+/// pixel and of the one right of the last. Reads and writes whole vectors.
 HWY_INLINE void mapDown(const ContrastView& contrast, int y, int map_width, float* means,
                         float* deviations) {
   const Floats d;
@@ -307,8 +307,8 @@ HWY_INLINE void mapDown(const ContrastView& contrast, int y, int map_width, floa
   }
 }
 
-/// Four values for each entry of the map: on it, and a quarter, a half and three quarters of the
-/// way to the next.
+/// Interpolates horizontally: four values per entry of the map, at 0, 1/4, 1/2 and 3/4 of the
+/// distance to the next entry.
 HWY_INLINE void quartersAt(const float* map, float* places) {
   const Floats d;
   const FloatVector here = hn::LoadU(d, map);
@@ -364,9 +364,9 @@ inline void normalizeImage(const ImageView& image, const ContrastView& contrast,
   }
 }
 
-/// Calls body(x) for whole vectors over first <= x < end; the last one overlaps the one before
-/// where they do not fit evenly. Returns where the rest begins: `first` where there is no room for
-/// one.
+/// Calls body(x) for the vectors that cover first <= x < end. The last vector overlaps the previous
+/// one if the length is no multiple of a vector's. Returns the first x not covered: `end`, or
+/// `first` if the range is shorter than a vector.
 template <typename Body>
 HWY_INLINE int forWholeVectors(int first, int end, const Body& body) {
   const auto lanes = static_cast<int>(hn::Lanes(Floats()));

@@ -14,14 +14,14 @@ inline void binPositions(const float* value, std::size_t n, float low, float sca
   for (std::size_t i = 0; i < whole; i += hn::Lanes(d)) {
     const FloatVector wanted = hn::Mul(hn::Sub(hn::LoadU(d, value + i), all(low)), all(scale));
     const FloatVector position = hn::Min(hn::Max(wanted, all(0.0F)), all(top));
-    const auto whole_bin = hn::ConvertTo(di, position);  // not negative: truncation is the floor
+    const auto whole_bin = hn::ConvertTo(di, position);  // not negative, so truncating rounds down
     hn::StoreU(whole_bin, di, bin + i);
     hn::StoreU(hn::Sub(position, hn::ConvertTo(d, whole_bin)), d, fraction + i);
   }
   reference::binPositions(value + whole, n - whole, low, scale, top, bin + whole, fraction + whole);
 }
 
-// The four weights of a spline, see bspline.h.
+// The four weights of a cubic B-spline, see bspline.h.
 struct VectorWeights {
   FloatVector w0, w1, w2, w3;
 };
@@ -50,7 +50,7 @@ HWY_INLINE VectorWeights secondDerivativesAt(FloatVector t) {
           hn::NegMulAdd(all(3.0F), t, all(1.0F)), t};
 }
 
-/// Side by side for each point: what the loops over points read.
+/// The inputs of the loops over points, interleaved per point.
 HWY_INLINE void store(const VectorWeights& w, float* places) {
   hn::StoreInterleaved4(w.w0, w.w1, w.w2, w.w3, Floats(), places);
 }
@@ -62,10 +62,10 @@ HWY_INLINE VectorWeights times(FloatVector factor, const VectorWeights& w) {
 
 using Four = hn::FixedTag<float, 4>;
 
-// Products of 4 x 4 weights are summed in a block for each pair of bins: blocks are whole vectors
-// and never overlap, so that a sum just stored can be loaded again at once. Two tables by turns,
-// for neighboring points often fall into the same block. At the end the blocks are spread to the
-// bins.
+// The 4 x 4 products of weights are summed in one block per pair of bins. Blocks are whole vectors
+// and never overlap, so that a load can use the value just stored. Points alternate between two
+// tables, because neighboring points often belong to the same block. At the end the blocks are
+// added to the bins of the histogram.
 inline void jointHistogram(const BinsView& reference, const BinsView& live, const float* visible,
                            std::size_t n, int side, float* scratch, double* sums) {
   constexpr std::size_t kBlock = 16;
@@ -124,12 +124,12 @@ inline void logarithms(const double* value, std::size_t n, double* logarithm) {
   reference::logarithms(value + i, n - i, logarithm + i);
 }
 
-/// g and h of a tile of points, and their share of dp_rl.
+/// g and h of a tile of points, and their contribution to dp_rl.
 struct alignas(64) MiTile {
   float first[4 * kTile];
   float second[4 * kTile];
   float live[4 * kTile];
-  float g[4 * kTile];  // four parts for each point
+  float g[4 * kTile];  // four partial sums per point
   float h[4 * kTile];
   float moments[4 * kRowFloats * kTile];  // the four live weights times the Jacobian
 };
@@ -165,7 +165,7 @@ HWY_INLINE void multiplyTile(const float* jacobian_rows, std::size_t begin, std:
 HWY_INLINE void spreadTile(const BinsView& reference, const BinsView& live, std::size_t begin,
                            std::size_t count, int side, const float* log_ratio, float* rows,
                            MiTile& tile) {
-  // The rows of the four live bins are neighbors: whole vectors of them are added to at once.
+  // The rows of the four live bins are contiguous: they are updated by whole vectors.
   constexpr std::size_t kMoments = 4 * kRowFloats;
   const Four four;
   const hn::CappedTag<float, 16> wide;
@@ -199,7 +199,7 @@ HWY_INLINE FloatVector sumOfFour(const float* parts) {
   return hn::Add(hn::Add(a, b), hn::Add(c, e));
 }
 
-/// Sums of the lanes over some tiles.
+/// Sums per vector lane over several tiles.
 struct MiParts {
   FloatVector gradient[6];
   FloatVector curvature[21];

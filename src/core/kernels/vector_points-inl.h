@@ -16,7 +16,7 @@ HWY_INLINE FloatVector all(float value) {
   return hn::Set(Floats(), value);
 }
 
-/// Whole vectors in n points; the reference does the rest.
+/// The points that fill whole vectors; the reference handles the rest.
 HWY_INLINE std::size_t wholeVectors(std::size_t n) {
   return n - n % hn::Lanes(Floats());
 }
@@ -41,7 +41,7 @@ HWY_INLINE VectorPoint load(const PointsView& points, std::size_t i) {
   return {hn::LoadU(d, points.x + i), hn::LoadU(d, points.y + i), hn::LoadU(d, points.z + i)};
 }
 
-/// Way of the points until the row v is read.
+/// Motion of the points until row v is read.
 HWY_INLINE VectorPoint rowShift(const WarpParameters& p, const VectorPoint& q, FloatVector v) {
   const FloatVector tau = hn::MulAdd(v, all(p.row_duration), all(p.first_row));
   const FloatVector wx = all(p.angular[0]);
@@ -62,7 +62,7 @@ struct VectorPixel {
   FloatMask is_valid;
 };
 
-/// What a point is multiplied by.
+/// The factor of radial distortion.
 template <Lens kLens>
 HWY_INLINE FloatVector radialScale(const WarpParameters& p, FloatVector r2) {
   if (kLens == Lens::kEquidistant) {
@@ -115,7 +115,7 @@ HWY_INLINE std::size_t warpVectors(const WarpParameters& p, const PointsView& po
     const VectorPoint q = moved(p.rotation, p.translation, load(points, i));
     VectorPixel pixel = project<kLens>(p, q);
     if (p.has_row_motion) pixel = project<kLens>(p, sum(q, rowShift(p, q, pixel.v)));
-    // Comparisons with NaN are false: it is outside.
+    // Comparisons with NaN are false, so that NaN is outside.
     const FloatMask right_of = hn::And(hn::Ge(pixel.u, all(0.0F)), hn::Ge(pixel.v, all(0.0F)));
     const FloatMask left_of =
         hn::And(hn::Lt(pixel.u, all(p.right)), hn::Lt(pixel.v, all(p.bottom)));
@@ -151,9 +151,8 @@ inline std::size_t warpPoints(const WarpParameters& p, const PointsView& points,
   return count;
 }
 
-// Gathering loads are slow on many processors and missing on others: addresses are computed by
-// vectors, the few neighbors of each point fetched one point after the other into a tile, and
-// interpolated by vectors again.
+// Gather instructions are slow on many processors and missing on others. So vectors compute the
+// addresses, a scalar loop copies the neighbors of each point into a tile, and vectors interpolate.
 constexpr std::size_t kTile = 64;
 
 struct alignas(64) Corners {
@@ -162,7 +161,7 @@ struct alignas(64) Corners {
   float dv[kTile];
 };
 
-/// `scale` times the pixels, split into whole and fraction.
+/// `scale` times the pixels, split into integer part and fraction.
 HWY_INLINE void findCorners(const float* u, const float* v, float scale, std::ptrdiff_t stride,
                             std::int32_t step, std::size_t n, Corners& corners) {
   const Floats d;
@@ -171,7 +170,7 @@ HWY_INLINE void findCorners(const float* u, const float* v, float scale, std::pt
   for (std::size_t i = 0; i < n; i += hn::Lanes(d)) {
     const FloatVector x = hn::Mul(all(scale), hn::LoadU(d, u + i));
     const FloatVector y = hn::Mul(all(scale), hn::LoadU(d, v + i));
-    const auto column = hn::ConvertTo(di, x);  // never negative: truncation is the floor
+    const auto column = hn::ConvertTo(di, x);  // not negative, so truncating rounds down
     const auto row = hn::ConvertTo(di, y);
     hn::Store(hn::Sub(x, hn::ConvertTo(d, column)), d, corners.du + i);
     hn::Store(hn::Sub(y, hn::ConvertTo(d, row)), d, corners.dv + i);
@@ -180,7 +179,7 @@ HWY_INLINE void findCorners(const float* u, const float* v, float scale, std::pt
   }
 }
 
-/// The two neighbors of each point in a row of the image, side by side.
+/// The two horizontal neighbors of each point in a row of the image, interleaved.
 struct alignas(64) FloatPairs {
   float upper[2 * kTile];
   float lower[2 * kTile];
@@ -212,7 +211,7 @@ HWY_INLINE void fetch(const ImageView& image, const Corners& corners, std::size_
   }
 }
 
-/// Values of the pairs at i, interpolated within each row: the upper and the lower one.
+/// Horizontal interpolation of the pairs from i on, in the upper and in the lower row.
 struct Rows {
   FloatVector upper, lower;
 };
@@ -230,7 +229,7 @@ HWY_INLINE FloatVector along(const std::uint16_t* pairs, FloatVector du) {
   const Integers di;
   const hn::Rebind<std::uint16_t, Floats> d16;
   const auto both = hn::PromoteTo(di, hn::LoadU(d16, pairs));
-  // The first byte in memory is the lower one: vector targets are little endian.
+  // All vector targets are little endian: the first byte in memory is the low one.
   const FloatVector first = hn::ConvertTo(d, hn::And(both, hn::Set(di, 0xFF)));
   const FloatVector second = hn::ConvertTo(d, hn::ShiftRight<8>(both));
   return interpolated(first, second, du);
@@ -290,7 +289,7 @@ inline std::size_t sampleNormalized(const ImageView& image, const ContrastView& 
   std::size_t hidden = 0;
   const std::size_t whole = wholeVectors(n);
   Corners corners;
-  alignas(64) float upper[4 * kTile];  // mean, deviation, and those one pixel to the right
+  alignas(64) float upper[4 * kTile];  // mean and deviation, here and one pixel to the right
   alignas(64) float lower[4 * kTile];
   for (std::size_t begin = 0; begin < whole; begin += kTile) {
     const std::size_t count = std::min(kTile, whole - begin);

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Scores of the image's blocks, included by vector.cpp once for each instruction set.
+// Scores of the blocks of an image, included by vector.cpp once for each instruction set.
 
 HWY_BEFORE_NAMESPACE();
 namespace mivo {
 namespace kernels {
 namespace HWY_NAMESPACE {
 
-/// What one tile of points adds to its blocks: two halves of a BlockScore for each point.
+/// The terms a tile of points adds to its blocks: a BlockScore per point, in two halves.
 struct alignas(64) TileScores {
   std::int32_t block[kTile];
   float first[4 * kTile];   // scores 0 to 3
-  float second[4 * kTile];  // scores 4 and 5, whether it is visible, 0
+  float second[4 * kTile];  // scores 4 and 5, `visible`, 0
 };
 
 template <RobustWeight kKind>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Residuals and their sums, included by vector.cpp once for each instruction set. Sums are formed
-// in floats over at most kSumLength points and then in doubles.
+// Residuals and their sums, included by vector.cpp once for each instruction set. At most
+// kSumLength points are summed in float; these sums are added in double.
 
 HWY_BEFORE_NAMESPACE();
 namespace mivo {
@@ -29,7 +29,7 @@ inline void residuals(const float* live, const float* contrast, const float* ref
 template <RobustWeight kKind>
 using Kind = std::integral_constant<RobustWeight, kKind>;
 
-/// Calls a function with the kind as a constant.
+/// Calls a function with the kind as a compile-time constant.
 template <typename Function>
 HWY_INLINE void withKind(RobustWeight kind, const Function& function) {
   switch (kind) {
@@ -44,8 +44,8 @@ HWY_INLINE void withKind(RobustWeight kind, const Function& function) {
   }
 }
 
-// Losses (Student's is below) and weights of robust_weight.h, which states their constants'
-// meaning.
+// Losses (that of Student's t is below) and weights as in robust_weight.h, which explains the
+// constants.
 template <RobustWeight kKind>
 HWY_INLINE FloatVector lossOf(FloatVector u) {
   static_assert(kKind != RobustWeight::kStudentT, "studentCost sums those");
@@ -67,7 +67,8 @@ HWY_INLINE FloatVector lossOf(FloatVector u) {
 template <RobustWeight kKind>
 HWY_INLINE FloatVector weightOf(FloatVector u) {
   if (kKind == RobustWeight::kHuber) {
-    return hn::Min(all(1.0F), hn::Div(all(kHuber), hn::Abs(u)));  // of zero: infinite, hence one
+    // u = 0 gives infinity, and thus 1.
+    return hn::Min(all(1.0F), hn::Div(all(kHuber), hn::Abs(u)));
   }
   if (kKind == RobustWeight::kTukey) {
     const FloatVector ratio = hn::Mul(u, all(1.0F / kTukey));
@@ -80,8 +81,8 @@ HWY_INLINE FloatVector weightOf(FloatVector u) {
   return all(1.0F);
 }
 
-/// Student's loss of several residuals at once: the sum of logarithms is that of a product. A
-/// factor is bounded so that no product overflows, at residuals of 10^4 scales.
+/// Sum of the Student's t losses of several residuals, by the logarithm of a product. Each factor
+/// is bounded, at residuals of 10^4 scales, so that the product does not overflow.
 constexpr std::size_t kFactors = 4;
 
 HWY_INLINE FloatVector studentFactor(FloatVector u, FloatMask is_visible) {
@@ -169,7 +170,7 @@ inline void robustWeights(RobustWeight kind, float scale, const float* residual,
   });
 }
 
-/// Curvature of the loss from its weight.
+/// Curvature of the loss, computed from its weight.
 template <RobustWeight kKind>
 HWY_INLINE FloatVector curvatureOf(FloatVector weight) {
   if (kKind == RobustWeight::kHuber) return hn::IfThenElseZero(hn::Ge(weight, all(1.0F)), weight);
@@ -273,7 +274,7 @@ inline void sumPairs(const float* a, const float* b, const float* divisor, const
   }
 }
 
-/// Readings at the pixels nearest to the points of one tile.
+/// Depth readings at the pixels nearest to the points of a tile.
 HWY_INLINE void fetchReadings(const DepthView& depth, const std::int32_t* offset, std::size_t n,
                               float* reading) {
   if (depth.meters != nullptr) {
@@ -285,7 +286,7 @@ HWY_INLINE void fetchReadings(const DepthView& depth, const std::int32_t* offset
   }
 }
 
-/// One vector of geometricResiduals, with the readings z. Returns which have one.
+/// One vector of geometricResiduals, with the depth readings z. Returns which points have one.
 HWY_INLINE FloatMask geometricVector(const WarpParameters& live, const Motion& T_ref_live,
                                      const PlanesView& planes, std::size_t i, FloatVector u,
                                      FloatVector v, FloatVector z, FloatMask in_view,

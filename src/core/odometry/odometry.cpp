@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "mivo/core/odometry.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/execution/cpu_clock.h"
 #include "core/images/frame_pyramid.h"
 #include "core/keyframe/keyframe_store.h"

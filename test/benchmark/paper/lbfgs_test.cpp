@@ -62,7 +62,8 @@ TEST_P(LbfgsTest, FindsTheMinimumOfASmoothCost) {
 INSTANTIATE_TEST_SUITE_P(Gradients, LbfgsTest,
                          ::testing::Values(GradientSource::kTerm, GradientSource::kDifferences));
 
-// A wrong gradient makes the line search fail long before: the two ways take the same steps.
+// With a wrong gradient the line search would fail early: the two implementations take the same
+// steps.
 TEST(Lbfgs, TakesTheSameStepsWithEitherGradient) {
   PointDistance term(pose(1.0));
   Parameters parameters;

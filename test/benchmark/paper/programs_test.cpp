@@ -86,7 +86,7 @@ TEST_F(PoseErrorsTest, NeedATruePoseForEachFrame) {
   EXPECT_NE(result.errors.find("no pose near 0.2"), std::string::npos) << result.errors;
 }
 
-/// Experiments on a small sequence of exact images, filmed once for all.
+/// Experiments on a small sequence of exact images, rendered once for all tests.
 class ExperimentTest : public ProgramTest {
  protected:
   static void SetUpTestSuite() {
@@ -118,7 +118,7 @@ class ExperimentTest : public ProgramTest {
 
 std::unique_ptr<TemporaryFolder> ExperimentTest::film_;
 
-// From the truth everything converges, from a turn of more than the field of view nothing.
+// Starts at the truth always converge, starts rotated by more than the field of view never.
 TEST_F(ExperimentTest, ConvergenceCountsWhatEndsNearTheTruth) {
   const auto rows = experiment("convergence_experiment", {"--magnitude", "0", "--magnitude", "3"});
   ASSERT_EQ(rows.size(), 2U);
@@ -138,7 +138,7 @@ TEST_F(ExperimentTest, EveryOptimizerStaysAtTheTruth) {
       EXPECT_LT(row[1], 0.01) << optimizer;
       EXPECT_LT(row[2], 0.01) << optimizer;
       EXPECT_EQ(row[3], 1.0) << optimizer;
-      EXPECT_LT(row[4], 0.0) << optimizer;  // the cost is minus the information
+      EXPECT_LT(row[4], 0.0) << optimizer;  // the cost is the negative mutual information
     }
   }
 }

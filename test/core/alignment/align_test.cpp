@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "core/alignment/pose_covariance.h"
 #include "support/random_pose.h"
 #include "support/scene.h"
@@ -40,7 +42,7 @@ class AlignTest : public ::testing::Test {
     return align(taskFrom(keyframe, live, T_live_ref_start), parameters);
   }
 
-  /// A camera that stands still before and after.
+  /// A camera at rest before and after.
   AlignmentTask taskFrom(const Keyframe& keyframe, const FramePyramid& live,
                          const Eigen::Isometry3d& T_live_ref_start) const {
     AlignmentTask task{keyframe, live, camera_};
@@ -49,7 +51,7 @@ class AlignTest : public ::testing::Test {
     return task;
   }
 
-  /// Translation in m and rotation in rad between a pose and the true one.
+  /// Translation error in m and rotation error in rad.
   static Eigen::Vector2d errorOf(const Eigen::Isometry3d& T, const Eigen::Isometry3d& truth) {
     const Vector6 d = localCoordinates(T * truth.inverse());
     return {d.head<3>().norm(), d.tail<3>().norm()};
@@ -75,7 +77,7 @@ class AlignTest : public ::testing::Test {
   Frame live_ = testing::render(testing::roomScene(), camera_, T_world_live_);
 };
 
-// A tenth of a pixel at this size is 2 mm at 2 m; mutual information is flatter at its top.
+// At this size a tenth of a pixel is 2 mm at 2 m; the maximum of mutual information is flatter.
 double translationTolerance(Method method) {
   return method == Method::kMi ? 0.006 : 0.003;
 }
@@ -118,8 +120,8 @@ TEST_F(AlignTest, TheInverseMotionIsRecoveredToo) {
   }
 }
 
-// Mutual information of the windows is stationary at self-alignment only on average over the
-// points.
+// With interpolation windows, mutual information is stationary at self-alignment only on average
+// over the points.
 TEST_F(AlignTest, AFrameAlignedWithItselfDoesNotMove) {
   live_ = reference_;
   for (const Method method : kMethods) {
@@ -214,7 +216,7 @@ TEST_F(AlignTest, ANegativeIsAlignedWhereThatIsAskedFor) {
   EXPECT_GT(alignment.correlation, parameters.loss.retry_correlation);
 }
 
-// Nothing to see, but depth: into a corner of the room, whose three walls fix all six directions.
+// No texture, only depth: a corner of the room, whose three walls constrain all six directions.
 TEST_F(AlignTest, DepthAloneFindsTheWayInTheDark) {
   const Eigen::Isometry3d into_corner =
       retract((Vector6() << 0.3, 0.2, -0.3, 0.0, 0.7, 0.0).finished()) *
@@ -235,7 +237,8 @@ TEST_F(AlignTest, DepthAloneFindsTheWayInTheDark) {
   EXPECT_FALSE(blind.sees_image);
 }
 
-// A wall, and nothing to see on it: depth says how far and how inclined, the motion so far where.
+// A wall without texture: depth constrains distance and inclination, the prior the position along
+// it.
 TEST_F(AlignTest, AlongAWallInTheDarkTheCameraKeepsItsVelocity) {
   reference_ = testing::render(testing::wallScene(), camera_, Eigen::Isometry3d::Identity());
   const Vector6 motion = (Vector6() << 0.02, -0.01, 0.015, 0.004, -0.006, 0.01).finished();
@@ -249,7 +252,7 @@ TEST_F(AlignTest, AlongAWallInTheDarkTheCameraKeepsItsVelocity) {
   live.build(live_, parameters);
   Keyframe keyframe;
   keyframe.build(reference, camera_, Vector6::Zero(), {}, parameters);
-  // Predicted too far along the wall by 1 mm, and towards it by 5 mm.
+  // The prediction is off by 1 mm along the wall and by 5 mm towards it.
   const Eigen::Isometry3d predicted =
       retract((Vector6() << 0.001, 0.0, 0.005, 0.0, 0.0, 0.0).finished()) * truth;
   AlignmentTask task = taskFrom(keyframe, live, predicted);
@@ -262,12 +265,12 @@ TEST_F(AlignTest, AlongAWallInTheDarkTheCameraKeepsItsVelocity) {
   EXPECT_NEAR(error.x(), 0.001, 5e-4);
   EXPECT_NEAR(error.y(), 0.0, 5e-4);
   EXPECT_NEAR(error.z(), 0.0, 1e-3);
-  // And it says that it does not know better.
+  // The covariance along the wall is that of the prior.
   EXPECT_GT(alignment.covariance(0, 0), 0.5 * 0.002 * 0.002);
   EXPECT_LT(alignment.covariance(2, 2), 0.25 * 0.002 * 0.002);
 }
 
-// The keyframe shows nothing, too, but once there was light: still no other place.
+// The keyframe has no texture either, but earlier frames had: the pose must not change.
 TEST_F(AlignTest, WhetherAViewIsDarkDependsOnTheLastThatWasNot) {
   reference_.image /= 10;
   live_.image /= 10;
@@ -295,8 +298,8 @@ TEST_F(AlignTest, AnUnrelatedViewIsSeenToBeOne) {
   }
 }
 
-// The camera turns by 4 degrees a frame and reads its rows during 0.6 of the period. What the rows
-// add to the error of a global shutter goes away when they are allowed for.
+// The camera turns by 4 degrees per frame, and its read-out takes 0.6 of the period. Modeling the
+// rolling shutter removes the additional error.
 TEST_F(AlignTest, RowsReadOneAfterTheOtherAreAllowedFor) {
   constexpr double kReadout = 0.6;
   for (const double turn : {0.09, -0.09}) {
@@ -304,8 +307,7 @@ TEST_F(AlignTest, RowsReadOneAfterTheOtherAreAllowedFor) {
     const Eigen::Isometry3d truth = retract(step).inverse();
     const auto errorWith = [&](double real, double assumed) -> Vector6 {
       Parameters parameters;
-      parameters.alignment.min_step_pixels =
-          0.001;  // it is the model that is measured, not the descent
+      parameters.alignment.min_step_pixels = 0.001;  // tests the model, not the convergence
       parameters.alignment.trusted_step_pixels = 0.0;
       parameters.alignment.min_cost_change = 0.0;
       FramePyramid reference;

@@ -12,8 +12,8 @@
 namespace mivo {
 namespace {
 
-/// A cost known in closed form: f(|t - goal|) and g(angle about z), and what was asked of it.
-/// Increments warp the keyframe: T retract(v, w)^-1 moves a translation by -v while w is zero.
+/// A cost in closed form, f(|t - goal|) + g(angle about z), that records its evaluations. Increments
+/// warp the keyframe: T retract(v, w)^-1 changes the translation by -v if w is zero.
 class ToyTerm : public CostTerm {
  public:
   double evaluate(const Eigen::Isometry3d& T_live_ref) override {
@@ -62,7 +62,7 @@ class TranslationTerm : public ToyTerm {
   Eigen::Vector3d goal_;
 };
 
-/// Only the x coordinate counts: f(x) with given first and second derivative.
+/// Depends on x only: f(x) with given first and second derivatives.
 class LineTerm : public ToyTerm {
  public:
   using Function = double (*)(double);
@@ -87,7 +87,7 @@ Eigen::Isometry3d at(double x) {
   return Eigen::Isometry3d(Eigen::Translation3d(x, 0.0, 0.0));
 }
 
-/// One meter moves the points by 100 pixels, one radian too.
+/// One meter moves the points by 100 pixels, and so does one radian.
 const Matrix6 kPixelMotion = 1e4 * Matrix6::Identity();
 
 Parameters freeParameters() {
@@ -142,7 +142,7 @@ TEST(MinimizeTest, TheTermsAreLeftAtThePoseThatIsReturned) {
   }
 }
 
-// Starts beside a maximum, where the curvature has the wrong sign: the guard turns it round.
+// Starts near a maximum, where the curvature is negative: the guard makes it positive.
 TEST(MinimizeTest, TheCostNeverRisesAndTheStepLeavesAMaximum) {
   LineTerm wells([](double x) { return 2.0 + std::cos(8.0 * x); },
                  [](double x) { return -8.0 * std::sin(8.0 * x); },
@@ -175,7 +175,7 @@ TEST(MinimizeTest, AStepThatOvershootsIsHalved) {
 }
 
 TEST(MinimizeTest, ATermThatNeverImprovesStopsAtOnceWhereItStarted) {
-  // Promises a descent that is not there.
+  // Its derivatives predict a descent that does not exist.
   LineTerm liar([](double x) { return 5.0 + std::abs(x - 0.2); }, [](double) { return 1.0; },
                 [](double) { return 100.0; });
   Parameters parameters = freeParameters();
@@ -217,7 +217,7 @@ TEST(MinimizeTest, SmallStepsAndSmallGainsEndIt) {
   EXPECT_LT(by_step.iterations, far.iterations);
   EXPECT_LT(by_gain.iterations, far.iterations);
   EXPECT_GT(by_step.iterations, 1);
-  // A tolerance makes both larger at once.
+  // The tolerance scales both.
   Parameters both = precise;
   both.alignment.min_step_pixels *= 50.0;
   both.alignment.min_cost_change = 0.005;
@@ -235,10 +235,10 @@ TEST(MinimizeTest, AShortStepIsTakenUntriedWhereTheCostIsConvex) {
   TranslationTerm bowl(Eigen::Matrix3d::Identity(), {0.004, 0.0, 0.0});
   const Minimum minimum = minimize({&bowl}, at(0.0), 1.0, kPixelMotion, freeParameters(), 1.0, 0.5);
   EXPECT_NEAR(minimum.T_live_ref.translation().x(), 0.004, 1e-12);
-  EXPECT_NEAR(minimum.cost, bowl.cost() - 0.5 * 0.004 * 0.004, 1e-12);  // as promised
+  EXPECT_NEAR(minimum.cost, bowl.cost() - 0.5 * 0.004 * 0.004, 1e-12);  // as predicted
   EXPECT_EQ(minimum.iterations, 1);
   EXPECT_EQ(minimum.evaluations, 1);
-  // Longer ones are tried, and so is one from where the cost bends the other way.
+  // Longer steps are evaluated, and so are steps from places of negative curvature.
   EXPECT_EQ(minimize({&bowl}, at(0.1), 1.0, kPixelMotion, freeParameters(), 1.0, 0.5).evaluations,
             2);
   LineTerm hill([](double x) { return std::cos(x); }, [](double x) { return -std::sin(x); },
@@ -256,7 +256,7 @@ TEST(MinimizeTest, AnInfiniteCostStaysWhereItIs) {
   EXPECT_TRUE(nowhere.linearized_.empty());
 }
 
-/// A bowl with one number of its model replaced.
+/// A quadratic cost with one entry of its model replaced.
 class SpoiltTerm : public TranslationTerm {
  public:
   using Spoil = void (*)(QuadraticModel&, double);
@@ -283,7 +283,7 @@ TEST(MinimizeTest, WhatIsNotFiniteEndsWithoutAStep) {
           minimize({&term}, at(0.1), 1.0, pixel_motion, freeParameters(), 1.0, 0.5, free);
       EXPECT_EQ(minimum.T_live_ref.matrix(), at(0.1).matrix());
       EXPECT_EQ(minimum.iterations, 0);
-      EXPECT_EQ(minimum.evaluations, 1);  // none was tried
+      EXPECT_EQ(minimum.evaluations, 1);  // no step was tried
     }
   };
   for (const double bad :

@@ -25,8 +25,8 @@ Vector6 scale() {
   return (Vector6() << kLength, kLength, kLength, 1.0, 1.0, 1.0).finished();
 }
 
-/// Derivatives of the points by both frames: what there is to see, but along an axis (in median
-/// depths and rad), and another noise in each frame.
+/// Derivatives of the points in both frames: a signal in all directions but one axis (in median
+/// depths and rad), and independent noise in each frame.
 class TwoFrames {
  public:
   explicit TwoFrames(const Vector6& unseen, double noise = kNoise) {
@@ -38,7 +38,7 @@ class TwoFrames {
     }
   }
 
-  /// The live derivatives as another exposure or blur leaves them.
+  /// Scales the live derivatives, as another exposure or blur does.
   TermCurvature term(double gain = 1.0) const {
     TermCurvature term;
     for (std::size_t i = 0; i < by_keyframe_.size(); ++i) {
@@ -55,7 +55,7 @@ class TwoFrames {
     return v;
   }
 
-  /// Of an increment in meters and rad.
+  /// For an increment in meters and rad.
   void add(const Vector6& by_keyframe, const Vector6& by_live) {
     by_keyframe_.emplace_back(scale().cwiseInverse().cwiseProduct(by_keyframe));
     by_live_.emplace_back(scale().cwiseInverse().cwiseProduct(by_live));
@@ -88,7 +88,7 @@ Observability confirmed(const TermCurvature& term) {
   return seen;
 }
 
-/// Everything is seen but the given axes, in meters and rad.
+/// All directions are observable but the given axes, in meters and rad.
 Observability withOpen(const std::vector<Vector6>& open) {
   Matrix6 projector = Matrix6::Identity();
   for (const Vector6& axis : open) {
@@ -115,9 +115,9 @@ TEST(ObservabilityTest, CurvatureOfNoiseIsNoViewAlthoughItIsLarge) {
   }
 }
 
-// Sideways nothing is seen, but the noise that looks like a view of it also looks like one of
-// turning, of which there is a view. Robust weights give the term another Hessian than the sum of
-// squares that is compared: the view of one must not spill over into the other.
+// Sideways motion is not observable, rotation is, and noise correlates the two. With robust weights
+// the Hessian of the term differs from the sum of squares that is compared: information about one
+// must not leak into the other.
 TEST(ObservabilityTest, WhatIsSeenOfOneDirectionDoesNotSpillOverIntoAnother) {
   TermCurvature term;
   Random random(9);
@@ -227,7 +227,7 @@ TEST(ObservabilityTest, CovarianceAndInformationAreInverseInWhatIsSeen) {
     const Observability seen = withOpen(open);
     const Matrix6 expected = Matrix6::Identity() - seen.openProjector();
     EXPECT_LT((seen.covarianceOfSeen() * seen.informationOfSeen() - expected).norm(), 1e-6);
-    // And next to nothing is said of the open ones, in which a guarded Hessian would be sure.
+    // The open directions have almost no information, where a guarded Hessian would have much.
     EXPECT_LT((seen.covarianceOfSeen() * scale().cwiseAbs2().cwiseInverse().asDiagonal() *
                seen.openProjector())
                   .norm(),
@@ -285,7 +285,7 @@ TEST(ObservabilityTest, DirectionsAreToldInTheAxesOfTheLiveCamera) {
   EXPECT_EQ(seen.openDirections(turned(1, 90.0)), forward);
   const Directions rolling = {false, false, false, false, false, true};
   EXPECT_EQ(withOpen({Vector6::Unit(5)}).openDirections(turned(2, 30.0)), rolling);
-  // Turning about a place two meters ahead takes the camera sideways.
+  // Rotating about a point two meters ahead moves the camera sideways.
   const Vector6 about_place = adjoint(retract(2.0 * Vector6::Unit(2))) * Vector6::Unit(4);
   const Directions around = {true, false, false, false, true, false};
   EXPECT_EQ(withOpen({about_place}).openDirections(Eigen::Isometry3d::Identity()), around);

@@ -24,7 +24,7 @@ Camera lensCamera() {
 
 const Eigen::Vector2d kSlope(1.7, -0.9);
 
-// Bilinear samples of a ramp are exact, so the warp's pixel can be read off them.
+// Bilinear interpolation of a ramp is exact, so its values give the warped pixel.
 class WarpTest : public ::testing::Test {
  protected:
   void sample(const Camera& camera, const Eigen::Isometry3d& T_live_ref,
@@ -62,7 +62,7 @@ TEST_F(WarpTest, SamplesAreTheImageWhereThePointsProject) {
           }
           continue;
         }
-        if (!isInside(*pixel, camera, -1e-3)) continue;  // rounding decides
+        if (!isInside(*pixel, camera, -1e-3)) continue;  // visibility depends on rounding
         ++seen;
         ASSERT_EQ(samples_.visible[i], 1.0F);
         EXPECT_NEAR(samples_.value[i], ramp(*pixel), 2e-3);
@@ -109,7 +109,7 @@ TEST_F(WarpTest, APoseThatIsNotFiniteSeesNothing) {
   }
 }
 
-// With the rows read one after the other, the point has moved on when its row is read.
+// With a rolling shutter, the point moves until its row is read.
 TEST_F(WarpTest, RowsAreReadAtTheirTime) {
   RowMotion rows;
   rows.readout = 1.0;
@@ -172,7 +172,7 @@ TEST_F(WarpTest, WhatMayBeClippedIsInViewButNotVisible) {
   std::size_t visible = 0;
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const int column = points_.pixels[i].x;
-    if (column == 80) continue;  // a matter of rounding
+    if (column == 80) continue;  // visibility depends on rounding
     EXPECT_EQ(samples_.visible[i], column < 80 ? 1.0F : 0.0F) << column;
   }
   for (const float seen : samples_.visible) visible += seen != 0.0F ? 1U : 0U;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <opencv2/core.hpp>
 
 #include "support/random_pose.h"
@@ -33,7 +34,7 @@ cv::Mat room() {
       .image;
 }
 
-/// gain * image + offset, not rounded away: gains of which the result is whole or nearly so.
+/// gain * image + offset, for gains that hardly cause rounding.
 cv::Mat relit(const cv::Mat& image, double gain, double offset) {
   cv::Mat result;
   image.convertTo(result, CV_8U, gain, offset);
@@ -44,8 +45,8 @@ double meanDifference(const cv::Mat& a, const cv::Mat& b) {
   return cv::norm(a, b, cv::NORM_L1) / static_cast<double>(a.total());
 }
 
-// The mean of a ramp over a window is its value in the middle: so a ramp less its local mean is 0,
-// if the map lies where it should; a quarter pixel off would show as 0.25 of the slope.
+// The mean of a ramp over a window is its value in the middle, so that a ramp minus its local mean
+// is 0 if the map is positioned correctly; an offset of a quarter pixel gives 0.25 of the slope.
 TEST(ContrastMapsTest, TheLocalMeanOfARampIsItsValueThere) {
   constexpr double kSlope = 1.0;
   cv::Mat ramp(120, 160, CV_8UC1);
@@ -85,7 +86,7 @@ TEST(ContrastMapsTest, GainAndOffsetOfTheLightDropOut) {
   EXPECT_LT(meanDifference(normalized(relit(image, 1.0, 60.0)), before), 0.05);
   EXPECT_LT(meanDifference(normalized(relit(image, 2.0, 0.0)), before), 0.5);
   EXPECT_LT(meanDifference(normalized(relit(image, 1.5, 30.0)), before), 1.5);
-  // It is not the same picture everywhere: the normalized image has contrast.
+  // The normalized image is not constant.
   cv::Scalar mean;
   cv::Scalar deviation;
   cv::meanStdDev(before, mean, deviation);
@@ -105,11 +106,11 @@ TEST(ContrastMapsTest, TheSameForBytesAndFloats) {
   EXPECT_LT(cv::norm(a, b, cv::NORM_INF), 1e-3);
 }
 
-// What smoothing leaves of the noise on level 0, 6/16, is the constant where there is nothing else.
+// Without texture, the constant is the noise that smoothing leaves on level 0: 6/16.
 TEST(ContrastMapsTest, NoiseIsMeasured) {
   testing::Random random(1);
   for (const double noise : {2.0, 5.0, 12.0}) {
-    cv::Mat image(480, 640, CV_8UC1);  // 30 rows of it are measured: to about 1 %
+    cv::Mat image(480, 640, CV_8UC1);  // 30 rows of it are used: about 1 % accuracy
     for (int y = 0; y < image.rows; ++y) {
       for (int x = 0; x < image.cols; ++x) {
         image.at<unsigned char>(y, x) =

@@ -77,7 +77,7 @@ TEST(VectorDepthTest, SmoothSurfacesEqualTheReference) {
     const Array here = surface(numbers, n, offset);
     const Array below = surface(numbers, n, offset);
     const float* const rows[3] = {above.data(), here.data(), below.data()};
-    std::vector<std::uint8_t> expected(n + 64, 7);  // what lies beyond stays as it is
+    std::vector<std::uint8_t> expected(n + 64, 7);  // entries beyond the row must stay unchanged
     for (std::size_t i = 0; i < n; ++i) expected[i] = numbers.chance(0.7F) ? 1 : 0;
     std::vector<std::uint8_t> actual = expected;
     const auto width = static_cast<int>(n);

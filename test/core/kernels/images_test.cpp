@@ -15,7 +15,7 @@ struct Size {
   int width;
   int height;
 };
-// From the smallest to several vectors, of all remainders.
+// Widths from the smallest to several vectors, with all remainders.
 std::vector<Size> awkwardSizes() {
   std::vector<Size> sizes = {{3, 3}, {4, 5}, {5, 4}, {640, 8}, {161, 31}};
   for (int width = 15; width < 150; width += 7) sizes.push_back({width, 9});
@@ -28,7 +28,7 @@ cv::Mat randomBytes(const Size& size, unsigned seed) {
   Numbers numbers(seed);
   for (int y = 0; y < image.rows; ++y) {
     for (int x = 0; x < image.cols; ++x) {
-      // Extremes too: sums of 16 bits must not overflow.
+      // Includes the extremes: 16-bit sums must not overflow.
       image.at<unsigned char>(y, x) =
           numbers.chance(0.5F) ? 255 : static_cast<unsigned char>(numbers.between(0.0F, 255.9F));
     }
@@ -178,7 +178,7 @@ TEST(ImageKernelTest, NormalizesByTheInterpolatedMap) {
 TEST(ImageKernelTest, FindsTheSameGradientsAndMaximaAsTheReference) {
   forEachImage([](const kernels::Kernels& kernels, const Size& size) {
     const cv::Mat bytes = randomBytes(size, 5);
-    // Blurred, so that neighbors differ by little, and in steps, so that many are equal.
+    // Blurred, so that neighbors differ little, and quantized, so that many are equal.
     cv::Mat smooth;
     cv::GaussianBlur(bytes, smooth, {3, 3}, 0.0);
     for (const cv::Mat& image : {bytes, smooth, asFloats(smooth)}) {
@@ -189,7 +189,7 @@ TEST(ImageKernelTest, FindsTheSameGradientsAndMaximaAsTheReference) {
         const auto row = static_cast<std::size_t>(y % 3);
         kernels::scalar().gradientRow(viewOf(image), y, expected[row].data());
         kernels.gradientRow(viewOf(image), y, actual[row].data());
-        EXPECT_EQ(actual[row], expected[row]);  // small whole numbers: exact
+        EXPECT_EQ(actual[row], expected[row]);  // small integers: exact
         if (y < 3) continue;
         const float* squared[3];
         for (int k = 0; k < 3; ++k) {

@@ -13,8 +13,8 @@
 
 #include "core/kernels/kernels.h"
 
-// Random and awkward input for the kernels, and the lengths and offsets at which vector code goes
-// wrong.
+// Random input and edge cases for the kernels, with the lengths and offsets at which vector code
+// tends to fail.
 
 namespace mivo {
 namespace testing {
@@ -22,12 +22,11 @@ namespace testing {
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-/// Size of the small images that points are looked up in.
+/// Size of the small images that are sampled.
 constexpr int kWidth = 67;
 constexpr int kHeight = 45;
 
-/// A camera with images of this size that moves while it reads its rows, and has moved from the
-/// keyframe's.
+/// A rolling-shutter camera with images of this size, at another pose than the keyframe's.
 inline kernels::WarpParameters warpParameters(kernels::Lens lens, bool has_row_motion) {
   kernels::WarpParameters p{};
   const float rotation[9] = {0.9987F,  -0.0399F, 0.0298F, 0.0404F, 0.9990F,
@@ -69,7 +68,8 @@ inline kernels::WarpParameters warpParameters(kernels::Lens lens, bool has_row_m
 constexpr kernels::Lens kLenses[] = {kernels::Lens::kNone, kernels::Lens::kPlumbBob,
                                      kernels::Lens::kRational, kernels::Lens::kEquidistant};
 
-/// 0 to 3 vectors of the widest instruction set, one by one, and around a tile and a sum.
+/// Each length from 0 to 3 vectors of the widest instruction set, and lengths around those of a
+/// tile and of a partial sum.
 inline std::vector<std::size_t> awkwardLengths() {
   std::vector<std::size_t> lengths;
   for (std::size_t n = 0; n <= 49; ++n) lengths.push_back(n);
@@ -77,7 +77,7 @@ inline std::vector<std::size_t> awkwardLengths() {
   return lengths;
 }
 
-/// An array that starts at an odd address of floats, with guards at both ends.
+/// An array that starts at an unaligned address, with guard values at both ends.
 class Array {
  public:
   Array(std::size_t n, std::size_t offset, float value = 0.0F)
@@ -119,7 +119,7 @@ class Numbers {
     for (std::size_t i = 0; i < n; ++i) result[i] = between(low, high);
     return result;
   }
-  /// 1 or 0.
+  /// 1 or 0 at random.
   Array visible(std::size_t n, std::size_t offset, float share = 0.8F) {
     Array result(n, offset);
     for (std::size_t i = 0; i < n; ++i) result[i] = chance(share) ? 1.0F : 0.0F;
@@ -130,7 +130,7 @@ class Numbers {
   std::mt19937 engine_;
 };
 
-/// Random columns, as the kernels take those of a Jacobian.
+/// Random columns, in the layout of a Jacobian.
 template <std::size_t count>
 class Columns {
  public:
@@ -148,8 +148,8 @@ class Columns {
   std::array<const float*, count> pointers_{};
 };
 
-/// Compares the upper triangles of two 6 x 6 sums of products. Cauchy and Schwarz bound the sum of
-/// magnitudes, by which rounding is measured, by the diagonal.
+/// Compares the upper triangles of two 6 x 6 sums of products. The tolerance is relative to the sum
+/// of magnitudes, which the diagonal bounds by the Cauchy-Schwarz inequality.
 inline void expectNearTriangles(const double* actual, const double* expected, double tolerance) {
   const std::size_t diagonal[6] = {0, 6, 11, 15, 18, 20};
   std::size_t entry = 0;
@@ -163,7 +163,7 @@ inline void expectNearTriangles(const double* actual, const double* expected, do
   }
 }
 
-/// Runs a test of every vector backend against the reference at every length and some offsets.
+/// Compares every vector backend with the reference at every length and at some offsets.
 template <typename Test>
 void forEachCase(const Test& test) {
   const std::vector<kernels::Backend> all = kernels::backends();

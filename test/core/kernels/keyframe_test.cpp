@@ -11,7 +11,7 @@ using testing::Numbers;
 
 constexpr float kUnset = -777.0F;
 
-/// Pixels of a whole image, and the lens of a real camera.
+/// Pixels all over the image of a camera with a real lens.
 kernels::WarpParameters cameraOf(kernels::Lens lens, bool has_row_motion) {
   kernels::WarpParameters p = testing::warpParameters(lens, has_row_motion);
   p.row_duration = 1.0F / 480.0F;
@@ -45,7 +45,7 @@ struct Input {
     arrays.push_back(numbers.array(n, offset, 0.0F, 479.0F));
     arrays.push_back(numbers.array(n, offset, 0.3F, 10.0F));
     for (int k = 0; k < 5; ++k) arrays.push_back(numbers.array(n, offset, -60.0F, 60.0F));
-    // No gradient at all, and a corner of the image.
+    // A pixel without gradient, and a corner of the image.
     for (std::size_t i = 0; i < n; i += 5) arrays[3][i] = arrays[4][i] = 0.0F;
     for (std::size_t i = 2; i < n; i += 7) arrays[0][i] = arrays[1][i] = 0.0F;
   }
@@ -71,7 +71,7 @@ struct Output {
   double motion[21] = {};
 };
 
-/// Largest magnitude at an entry of all columns from `first` on: what rounding is measured by.
+/// Largest magnitude of an entry over all columns from `first` on; tolerances are relative to it.
 float largest(const std::vector<Array>& arrays, std::size_t first, std::size_t count,
               std::size_t i) {
   float result = 0.0F;

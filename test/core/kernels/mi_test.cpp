@@ -22,7 +22,7 @@ Bins randomBins(std::size_t n, std::size_t offset, int num_bins, unsigned seed) 
   Numbers numbers(seed);
   Bins bins{{}, Array(n, offset)};
   for (std::size_t i = 0; i < n; ++i) {
-    // Runs in the same bin, and both ends of the axis.
+    // Consecutive points in the same bin, and both ends of the axis.
     const float position = numbers.chance(0.3F)
                                ? (i % 2 == 0 ? 0.0F : static_cast<float>(num_bins - 1) - 1e-3F)
                                : numbers.between(0.0F, static_cast<float>(num_bins - 1) - 1e-3F);
@@ -60,7 +60,7 @@ TEST(VectorInformationTest, HistogramsAgreeWithTheReference) {
       const Array visible = Numbers(4).visible(n, offset);
       std::vector<float> scratch(kernels::histogramScratch(side), testing::kNan);
       const auto cells = static_cast<std::size_t>(side * side);
-      std::vector<double> expected(cells, 1.0);  // what is there is added to
+      std::vector<double> expected(cells, 1.0);  // the kernel adds to the previous values
       std::vector<double> actual(cells, 1.0);
       kernels::scalar().jointHistogram(reference.view(), live.view(), visible.data(), n, side,
                                        scratch.data(), expected.data());

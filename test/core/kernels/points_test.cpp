@@ -20,7 +20,7 @@ struct Points {
   kernels::PointsView view() const { return {x.data(), y.data(), z.data()}; }
 };
 
-/// Points around the view, some behind the camera, on it, huge or not finite.
+/// Points inside and outside the view, some behind the camera, at its center, huge or not finite.
 Points awkwardPoints(std::size_t n, std::size_t offset) {
   Numbers numbers(static_cast<unsigned>(n));
   Points points{numbers.array(n, offset, -1.5F, 1.5F), numbers.array(n, offset, -1.0F, 1.0F),
@@ -60,7 +60,7 @@ TEST(VectorWarpTest, AgreesWithTheReference) {
         for (std::size_t i = 0; i < n; ++i) {
           if (actual.visible[i] == 1.0F) ++visible;
           if (actual.visible[i] != expected.visible[i]) {
-            // Rounding may decide at the border only.
+            // Visibility may differ by rounding, but only at the border.
             const Array& u = actual.visible[i] == 1.0F ? actual.u : expected.u;
             const Array& v = actual.visible[i] == 1.0F ? actual.v : expected.v;
             EXPECT_TRUE(isNear(u[i], 0.0F) || isNear(u[i], p.right) || isNear(v[i], 0.0F) ||
@@ -104,7 +104,7 @@ TEST(VectorWarpTest, ExactBordersAreInsideOnTheLeftAndOutsideOnTheRight) {
   }
 }
 
-/// An image of floats, the same as bytes, a map of its contrast, and pixels in it.
+/// An image as floats and as bytes, its contrast map, and pixels in it.
 struct Pictures {
   explicit Pictures(unsigned seed) {
     Numbers numbers(seed);
@@ -130,7 +130,7 @@ struct Pictures {
   std::vector<float> pairs;
 };
 
-/// Pixels as the warp leaves them, many on whole pixels and on the first and last of the image.
+/// Pixels as warpPoints returns them, many at integer positions and at the image border.
 Pixels awkwardPixels(std::size_t n, std::size_t offset) {
   Numbers numbers(static_cast<unsigned>(n + 7));
   Pixels pixels(n, offset);
@@ -176,7 +176,7 @@ TEST(VectorSampleTest, NormalizedIntensitiesAgreeWithTheReference) {
       const Pixels pixels = awkwardPixels(n, offset);
       Array expected(n, offset, kNan);
       Array actual(n, offset, kNan);
-      // The brighter half is hidden.
+      // The brighter half becomes invisible.
       const auto sample = [&](const Kernels& k, Array& visible, Array& out) {
         return k.sampleNormalized(pictures.image(as_bytes), pictures.contrast(), 128.0F,
                                   pixels.u.data(), pixels.v.data(), visible.data(), n, out.data());

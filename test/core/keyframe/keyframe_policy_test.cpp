@@ -68,7 +68,7 @@ TEST_F(KeyframePolicyTest, ABlurredFrameIsOneOnlyWhenThereIsNoOtherWay) {
   parameters_.keyframes.keyframe_rotation = 0.1;
   parameters_.keyframes.keyframe_sharpness = 0.8;
   first_.correlation = 0.9;
-  alignment_.correlation = 0.73;  // as good as at first: sharp
+  alignment_.correlation = 0.73;  // as high as at first: the frame is sharp
   alignment_.T_live_ref = retract(0.15 * Vector6::Unit(4));
   EXPECT_TRUE(isNeeded());
   alignment_.correlation = 0.71;
@@ -78,8 +78,7 @@ TEST_F(KeyframePolicyTest, ABlurredFrameIsOneOnlyWhenThereIsNoOtherWay) {
   alignment_.T_live_ref.setIdentity();
   alignment_.overlap = parameters_.keyframes.keyframe_overlap - 0.01;
   EXPECT_FALSE(isNeeded());
-  parameters_.alignment.photometric_model =
-      PhotometricModel::kNone;  // the paper does not know of it
+  parameters_.alignment.photometric_model = PhotometricModel::kNone;  // as in the paper
   EXPECT_TRUE(isNeeded());
   parameters_.alignment.photometric_model = PhotometricModel::kLcn;
   parameters_.keyframes.keyframe_sharpness = 0.0;

@@ -18,7 +18,7 @@ Keyframe wallKeyframe(const Parameters& parameters) {
   return keyframe;
 }
 
-// Second derivatives need the eight neighbors: the border has none.
+// Second derivatives need the eight neighbors, which border pixels lack.
 std::size_t innerPixels(const Camera& camera) {
   return static_cast<std::size_t>((camera.width - 2) * (camera.height - 2));
 }
@@ -53,7 +53,7 @@ TEST(KeyframeTest, OnTheFinestLevelMorePointsFollowThoseThatLead) {
   const Keyframe few = wallKeyframe(parameters);
   EXPECT_EQ(few.level(0).points.size(), points.num_leading);
   EXPECT_EQ(few.level(0).points.num_leading, points.num_leading);
-  // The intensities themselves, and mutual information, are compared as in the paper.
+  // Raw intensities and mutual information, as in the paper.
   Parameters raw;
   raw.alignment.photometric_model = PhotometricModel::kNone;
   Parameters information;

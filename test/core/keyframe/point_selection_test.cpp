@@ -9,6 +9,7 @@
 #include <map>
 #include <opencv2/core.hpp>
 #include <set>
+#include <utility>
 
 #include "support/analytic_image.h"
 #include "support/random_pose.h"
@@ -29,7 +30,7 @@ SelectionLimits limits(int num_points) {
 
 std::vector<Pixel> salientPixels(const cv::Mat& image, const cv::Mat& depth,
                                  const SelectionLimits& limits) {
-  std::vector<Pixel> pixels = {{1, 1}};  // what was there before is gone
+  std::vector<Pixel> pixels = {{1, 1}};  // the previous content is discarded
   const std::size_t num_leading = selectSalient(image, depth, limits, pixels);
   EXPECT_EQ(num_leading, pixels.size());
   return pixels;
@@ -48,7 +49,7 @@ TEST(SelectEvenlyTest, AboutSoManyPixelsWithDepthFromEverywhere) {
   selectEvenly(depth, 200, pixels);
   EXPECT_GE(pixels.size(), 200U);
   EXPECT_LT(pixels.size(), 220U);
-  std::array<int, 4> quarters{};  // of the half that has depth
+  std::array<int, 4> quarters{};  // quarters of the half that has depth
   for (const Pixel& pixel : pixels) {
     EXPECT_GE(pixel.x, 40);
     ++quarters[static_cast<std::size_t>(2 * (pixel.y >= 30) + (pixel.x >= 60))];
@@ -88,7 +89,8 @@ bool isSame(const std::vector<Pixel>& a, const std::vector<Pixel>& b) {
                     [](const Pixel& p, const Pixel& q) { return p.x == q.x && p.y == q.y; });
 }
 
-// A soft step along a line of any direction: of the pixels across it only the steepest stays.
+// A blurred edge in any direction: of the pixels across it only the one with the largest gradient
+// is kept.
 TEST(SelectSalientTest, AnEdgeBecomesAThinLine) {
   for (double angle = 0.05; angle < 3.1; angle += 0.4) {
     const Eigen::Vector2d normal(std::cos(angle), std::sin(angle));
@@ -129,10 +131,10 @@ TEST(SelectSalientTest, NoMoreThanAskedForAndTheSameFromEveryFullCell) {
 
 TEST(SelectSalientTest, WhatEmptyCellsDoNotUseGoesToTheOthers) {
   cv::Mat image = noiseImage(2);
-  image.colRange(0, 48) = 100.0F;  // nothing to choose in the left half
+  image.colRange(0, 48) = 100.0F;  // no candidates in the left half
   const std::vector<Pixel> pixels = salientPixels(image, flatDepth(), limits(240));
   EXPECT_LE(pixels.size(), 240U);
-  // The 12 cells on the right share what 24 would, up to one point per cell.
+  // The 12 cells on the right get the points of all 24, up to one per cell.
   EXPECT_GT(pixels.size(), 240U - 15U);
 }
 
@@ -172,7 +174,7 @@ TEST(SelectSalientTest, EachCellGivesItsSteepestPoints) {
   }
 }
 
-// Candidates of each cell sorted outright. Gray levels of few steps make many equal gradients.
+// Compared with sorting all candidates of each cell. Few gray levels give many equal gradients.
 TEST(SelectSalientTest, OfEquallySteepPixelsTheEarlierOnesAreTaken) {
   cv::Mat image;
   noiseImage(8).convertTo(image, CV_8UC1, 4.0 / 255.0);

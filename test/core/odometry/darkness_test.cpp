@@ -4,7 +4,7 @@
 #include "mivo/core/odometry.h"
 #include "support/camera_path.h"
 
-// What Odometry does when the light goes out under way, and comes back.
+// Odometry when the light is switched off during motion, and on again.
 
 namespace mivo {
 namespace {
@@ -14,8 +14,8 @@ constexpr int kLitFrom = 32;
 constexpr int kFrames = 40;
 constexpr double kTurn = 0.03;  // rad per frame
 
-/// The camera turns by 70 degrees, most of them in the dark: nothing that it saw at first is in
-/// view when the light is back.
+/// The camera turns by 70 degrees, mostly in the dark: when the light is back, nothing of the first
+/// view is visible.
 class DarknessTest : public ::testing::Test {
  protected:
   static Eigen::Isometry3d pose(int i) {
@@ -43,12 +43,13 @@ TEST_F(DarknessTest, DepthLeadsOnHoweverFarTheCameraTurnsMeanwhile) {
   for (int i = 0; i < kFrames; ++i) {
     const TrackingResult& result = odometry_.process(frame(i));
     const bool is_dark = i >= kDarkFrom && i < kLitFrom;
-    // The first frame in the light has a keyframe of the dark to be held against.
+    // The first frame with light is aligned with a keyframe from the dark.
     const bool is_blind = is_dark || i == kLitFrom;
     EXPECT_EQ(result.state, is_blind ? TrackingState::kDegraded : TrackingState::kTracking) << i;
     EXPECT_EQ(result.segment, 0) << i;
     EXPECT_LT(errorOf(result, i).tail<3>().norm(), 0.01) << i;
-    // Where two walls are in view their edge is a way to slide along, at the velocity so far.
+    // With two walls in view, motion along their edge is open and continues at the previous
+    // velocity.
     EXPECT_LT(errorOf(result, i).head<3>().norm(), 0.12) << i;
     if (i == kLitFrom) {
       EXPECT_TRUE(result.new_keyframe);
@@ -56,8 +57,8 @@ TEST_F(DarknessTest, DepthLeadsOnHoweverFarTheCameraTurnsMeanwhile) {
   }
 }
 
-// The keyframe is of the dark, and depth does not lead back to where the camera was before: that is
-// looked for as soon as there is light and the camera can have got there.
+// The keyframe is from the dark, and depth alone does not find the previous place again: it is
+// searched as soon as there is light and the camera can have reached it.
 TEST_F(DarknessTest, BackInTheLightAndInAKnownPlaceItIsFound) {
   for (int i = 0; i < kLitFrom; ++i) odometry_.process(frame(i));
   ASSERT_GT(odometry_.result().keyframes, 2);

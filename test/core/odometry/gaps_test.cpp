@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 
 #include "mivo/core/odometry.h"
 #include "support/camera_path.h"
 
-// No pose is further from the last measured one than half a second of its velocity: after a gap,
-// and behind a covered lens while parameters change.
+// Poses are extrapolated for at most half a second of the last measured velocity: after a gap, and
+// while parameters change with the lens covered.
 
 namespace mivo {
 namespace {
@@ -31,7 +32,7 @@ Eigen::Isometry3d poseAt(int i) {
   return retract(kSpeed * kFramePeriod * i * Vector6::Unit(0));
 }
 
-/// Frames of the way, rendered once.
+/// The frames of the path, rendered once.
 const Frame& view(int i) {
   static const std::vector<Frame> frames = [] {
     std::vector<Frame> rendered;
@@ -57,7 +58,7 @@ Frame coveredLens() {
   return frame;
 }
 
-/// An odometry that has followed the camera on its way.
+/// An odometry that has tracked the camera along the path.
 class Traveled {
  public:
   Traveled() : odometry(testing::smallCamera(), {}) {
@@ -65,7 +66,8 @@ class Traveled {
     last = odometry.result();
   }
 
-  /// The next frame, so much later, may not be further away than the motion model answers for.
+  /// After a gap of this length, the next pose must be within the extrapolation of the motion
+  /// model.
   const TrackingResult& process(const Frame& frame, double seconds) {
     const TrackingResult& result = odometry.process(stamped(frame, stamp += seconds));
     EXPECT_LE(distance(result.T_odom_camera, last.T_odom_camera), most()) << stamp;
@@ -74,12 +76,12 @@ class Traveled {
     return result;
   }
 
-  /// Of the last measured velocity, and a millimeter.
+  /// The distance at the last measured velocity, plus a millimeter.
   double most() const { return kHorizon * last.velocity.head<3>().norm() + 1e-3; }
 
   double stamp = 10.0;
   Odometry odometry;
-  TrackingResult last;  // of the last frame on the way
+  TrackingResult last;  // of the last frame before the gap
 };
 
 class GapsTest : public ::testing::TestWithParam<double> {};
@@ -91,7 +93,7 @@ TEST_P(GapsTest, AfterAGapAnotherPlaceIsNoPoseFarAway) {
   EXPECT_EQ(camera.process(anotherPlace(), GetParam()).state, TrackingState::kLost);
   const int lost_frames = camera.odometry.parameters().loss.lost_frames;
   for (int i = 0; i < lost_frames + 2; ++i) camera.process(anotherPlace(), kFramePeriod);
-  // The new segment begins there, and the camera stands still in it.
+  // The new segment begins there, and the camera does not move in it.
   EXPECT_EQ(camera.odometry.result().segment, 1);
   EXPECT_EQ(camera.odometry.result().state, TrackingState::kTracking);
 }
@@ -102,7 +104,7 @@ TEST_P(GapsTest, AfterAGapTheSamePlaceIsFound) {
   EXPECT_EQ(result.state, TrackingState::kTracking);
   EXPECT_EQ(result.segment, 0);
   EXPECT_LT(distance(result.T_odom_camera, poseAt(kMoving - 1)), 0.01);
-  // Nothing is left of the gap in what follows.
+  // The gap has no effect on later frames.
   EXPECT_LT(
       distance(camera.process(view(kMoving - 1), kFramePeriod).T_odom_camera, poseAt(kMoving - 1)),
       0.01);
@@ -128,7 +130,8 @@ struct Change {
 
 class CoveredLensTest : public ::testing::TestWithParam<Change> {};
 
-// Keyframes of other parameters are of no use, but a new one may not begin anywhere.
+// Keyframes of the old parameters cannot be used, but a new one must not be created at a wrong
+// pose.
 TEST_P(CoveredLensTest, ParametersThatChangeBehindItMoveNothing) {
   Traveled camera;
   const int keyframes = camera.odometry.result().keyframes;
@@ -148,7 +151,7 @@ TEST_P(CoveredLensTest, ParametersThatChangeBehindItMoveNothing) {
     EXPECT_EQ(result.segment, 0) << i;
     EXPECT_LT(distance(result.T_odom_camera, poseAt(kMoving - 1)), 0.01) << i;
   }
-  // And the change has come into force.
+  // The change is in effect.
   EXPECT_GT(camera.odometry.result().keyframes, keyframes);
 }
 

@@ -14,7 +14,7 @@ namespace {
 constexpr double kExpected = 0.003;  // m and rad, standard deviation of the prediction
 constexpr double kMeasured = 0.004;  // of an alignment: together 0.005
 
-/// One keyframe somewhere, a camera expected somewhere else.
+/// A keyframe, and a camera predicted at another pose.
 class HypothesesTest : public ::testing::Test {
  protected:
   HypothesesTest() {
@@ -25,13 +25,13 @@ class HypothesesTest : public ::testing::Test {
     prediction_.covariance = diagonalCovariance(kExpected, kExpected);
   }
 
-  /// A sight that ends so far along an axis of the camera from where it is expected.
+  /// A sight whose pose is this far from the prediction, along an axis of the camera.
   Sight sightAt(double offset, double correlation, int axis = 0) const {
     const Eigen::Isometry3d T_odom_camera =
         prediction_.T_odom_camera * retract(offset * Vector6::Unit(axis));
     Sight sight;
     sight.alignment.T_live_ref = T_odom_camera.inverse() * keyframes_.current().T_odom_keyframe;
-    // Of the increment, such that it is isotropic in the axes of the camera.
+    // The covariance of the increment that is isotropic in the camera's axes.
     const Matrix6 to_increment = adjoint(sight.alignment.T_live_ref.inverse());
     sight.alignment.covariance =
         to_increment * diagonalCovariance(kMeasured, kMeasured) * to_increment.transpose();
@@ -63,7 +63,7 @@ TEST_F(HypothesesTest, AHigherCorrelationIsWorthASurpriseButNotAnyOne) {
   EXPECT_GT(evidenceOf(expected), evidenceOf(sightAt(0.1, 0.5)));
   EXPECT_GT(evidenceOf(sightAt(0.1, 0.9)), evidenceOf(expected));
   EXPECT_GT(evidenceOf(expected), evidenceOf(sightAt(0.1, 0.55)));
-  // Nothing in common, or the negative of it, says nothing.
+  // No correlation, or a negative one, is no evidence.
   EXPECT_NEAR(evidenceOf(sightAt(0.0, 0.0)), 0.0, 1e-6);
   EXPECT_NEAR(evidenceOf(sightAt(0.0, -0.5)), 0.0, 1e-6);
   EXPECT_TRUE(std::isfinite(evidenceOf(sightAt(0.0, 1.0))));

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-/// An alignment that nothing speaks against.
+/// An alignment without any sign of failure.
 Alignment goodAlignment() {
   Alignment alignment;
   alignment.points = 5000;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "support/random_pose.h"
@@ -17,7 +18,7 @@ class MotionModelTest : public ::testing::Test {
   /// Pose at frame n of a screw motion that turns by `twist_` with each frame.
   Eigen::Isometry3d pose(double n) const { return start_ * expSe3(n * twist_); }
 
-  /// Feeds frame n at its stamp, off by `jitter` seconds.
+  /// Adds frame n, with its stamp shifted by `jitter` seconds.
   void feed(int n, double jitter = 0.0) {
     stamp_ = 100.0 + n * kPeriod + jitter;
     clock_.add(stamp_);
@@ -73,7 +74,7 @@ TEST_F(MotionModelTest, ThePredictionErrsByWhatTheCameraMayAccelerate) {
   parameters_.motion.expected_speed = 1e-3;
   parameters_.motion.expected_turn_rate = 1e-3;
   for (int n = 0; n < 4; ++n) feed(n);
-  // Not faster than ever expected, however it accelerates.
+  // Limited by the expected speed, for any acceleration.
   const Eigen::Vector2d slow = deviations(model_.covariance(stamp_ + kPeriod, clock_, motion()));
   EXPECT_LT(slow[0], 1.1e-3 * kPeriod);
   parameters_.motion.expected_speed = 1.0;
@@ -109,7 +110,7 @@ TEST_F(MotionModelTest, OpenDirectionsKeepTheirVelocityForHalfASecond) {
   start_.setIdentity();
   for (int n = 0; n < 10; ++n) feed(n);
   const double known = model_.covariance(stamp_ + kPeriod, clock_, motion())(0, 0);
-  // From here on nobody sees the motion along x; along z it is seen.
+  // From here on motion along x is not observable; along z it is.
   Eigen::Isometry3d T = pose(9);
   for (int n = 10; n < 60; ++n) {
     const double stamp = 100.0 + n * kPeriod;
@@ -128,7 +129,7 @@ TEST_F(MotionModelTest, OpenDirectionsKeepTheirVelocityForHalfASecond) {
   const Matrix6 covariance = model_.covariance(100.0 + 60 * kPeriod, clock_, motion());
   EXPECT_GT(covariance(0, 0), 100.0 * known);
   EXPECT_LT(covariance(2, 2), 4.0 * known);
-  // Seen again, it is known again.
+  // It becomes observable again, and the prediction certain.
   for (int n = 60; n < 63; ++n) feed(n);
   EXPECT_LT(model_.covariance(stamp_ + kPeriod, clock_, motion())(0, 0), 4.0 * known);
 }
@@ -144,7 +145,7 @@ TEST_F(MotionModelTest, JitterOfTheStampsIsNoMotion) {
 TEST_F(MotionModelTest, DroppedFramesAreCounted) {
   for (int n = 0; n < 10; ++n) feed(n);
   expectPrediction(100.0 + 12.0 * kPeriod, 12.0);
-  feed(12);  // two frames were missing: the motion since is that of three
+  feed(12);  // two frames were missing: this is the motion of three periods
   expectPrediction(100.0 + 13.0 * kPeriod, 13.0);
   expectPrediction(100.0 + 15.1 * kPeriod, 15.0);
 }

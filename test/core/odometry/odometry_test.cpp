@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <cmath>
 #include <limits>
 #include <opencv2/core.hpp>
 
@@ -133,7 +134,7 @@ TEST(OdometryTest, ThePredictionContinuesTheMotion) {
 }
 
 TEST(OdometryTest, AGivenStartIsUsed) {
-  // Two frames that the prediction could not bridge.
+  // Two frames too far apart for the prediction.
   const std::size_t far = 14;
   Parameters parameters;
   parameters.loss.lost_speed = 1000.0;
@@ -144,7 +145,7 @@ TEST(OdometryTest, AGivenStartIsUsed) {
   const TrackingResult& result = odometry.process(walk().frames[far], start);
   EXPECT_EQ(result.state, TrackingState::kTracking);
   expectNear(result.T_odom_camera, walk().T_first_camera[far], 0.02, 0.01);
-  // A start that is no pose is not used.
+  // An invalid start pose is ignored.
   Eigen::Isometry3d broken = start;
   broken.translation().x() = std::numeric_limits<double>::quiet_NaN();
   EXPECT_TRUE(odometry.process(walk().frames[far + 1], broken).T_odom_camera.matrix().allFinite());
@@ -157,7 +158,7 @@ TEST(OdometryTest, ResetStartsAnewAtThePose) {
   const Eigen::Isometry3d pose = Random(2).pose(3.0, 1.0);
   odometry.reset(pose);
   EXPECT_FALSE(odometry.hasKeyframe());
-  // Stamps are forgotten too: an earlier one is no fault now.
+  // Stamps are reset, too: an earlier one is accepted now.
   const TrackingResult& first = odometry.process(walk().frames[0]);
   EXPECT_EQ(first.reason, TrackingReason::kNone);
   expectNear(first.T_odom_camera, pose, 1e-9, 1e-9);
@@ -229,23 +230,23 @@ TEST(OdometryTest, CovarianceIsSymmetricAndPositiveDefinite) {
     EXPECT_GT(Eigen::SelfAdjointEigenSolver<Matrix6>(result.covariance).eigenvalues().minCoeff(),
               0.0);
   }
-  // Of a tracked frame: better than a centimeter, no better than a micrometer.
+  // The deviation of a tracked frame is between a micrometer and a centimeter.
   const double deviation = std::sqrt(odometry.result().covariance(0, 0));
   EXPECT_LT(deviation, 0.01);
   EXPECT_GT(deviation, 1e-6);
 }
 
-// The spread of the errors over noise of other seeds is what the covariance says it is, up to a
-// factor of 3. The noise is strong, so that the systematic part of the covariance, which is no
-// spread, is small beside it. Mutual information
-// is more cautious: its windows are wider than this noise, so it claims less than it knows.
+// The standard deviation of the errors over several seeds of noise agrees with the covariance up to
+// a factor of 3. Strong noise makes the systematic part of the covariance, which does not vary with
+// the seed, negligible. The covariance of mutual information is larger than the errors: its windows
+// are wider than this noise.
 TEST(OdometryTest, CovarianceIsAboutTheSpreadOfTheErrors) {
   constexpr int kSeeds = 40;
   constexpr double kNoise = 15.0;
   struct Case {
     Method method;
     PhotometricModel model;
-    double lowest;  // ratio of spread and prediction
+    double lowest;  // ratio of measured and predicted deviation
   };
   for (const Case& c : {Case{Method::kSsd, PhotometricModel::kNone, 1.0 / 3.0},
                         Case{Method::kMi, PhotometricModel::kNone, 1.0 / 6.0},
@@ -345,7 +346,7 @@ bool isSame(const TrackingResult& a, const TrackingResult& b) {
 }
 
 TEST(OdometryTest, TheSameInputGivesTheSameBitsForAnyNumberOfThreads) {
-  // All pixels are points, so that there are several chunks to share.
+  // All pixels are points, so that several threads get chunks.
   Parameters parameters;
   parameters.points.point_fraction = 1.0;
   parameters.points.min_gradient = 0.0;

@@ -5,7 +5,7 @@
 #include "support/camera_path.h"
 #include "support/wall.h"
 
-// What Odometry says where image and depth leave directions of motion open.
+// Odometry where image and depth do not constrain some directions of motion.
 
 namespace mivo {
 namespace {
@@ -29,7 +29,7 @@ double stampOf(int i) {
   return 10.0 + testing::kFramePeriod * i;
 }
 
-/// Place of the camera on its way along x, from the first frame on.
+/// Position of the camera along x, relative to the first frame.
 double slidden(int i) {
   return kSpeed * testing::kFramePeriod * i;
 }
@@ -42,8 +42,8 @@ double sigma(const TrackingResult& result, int axis) {
   return std::sqrt(result.covariance(axis, axis));
 }
 
-/// The error lies within three standard deviations along the motion, and within five along all the
-/// other axes: of so many numbers some lie outside of three.
+/// The error is within three standard deviations along the motion, and within five along the other
+/// axes: of that many numbers some exceed three.
 void expectHonest(const TrackingResult& result, double x, int frame) {
   const Vector6 error = errorAt(result, x);
   EXPECT_LT(std::abs(error[0]), 3.0 * sigma(result, 0)) << "frame " << frame;
@@ -52,7 +52,8 @@ void expectHonest(const TrackingResult& result, double x, int frame) {
   }
 }
 
-/// It slides along the stripes, and is off by less than a few millimeters in what is seen.
+/// The camera moves along the stripes; in the observable directions errors are a few millimeters at
+/// most.
 void slideAlongStripes(const Parameters& parameters) {
   const Camera camera = testing::smallCamera();
   const Wall wall{testing::horizontalStripes};
@@ -84,7 +85,7 @@ TEST(OpenDirectionsTest, AlongStripesTheMethodOfThePaperSaysSoToo) {
 TEST(OpenDirectionsTest, LittleTextureOnTheStripesIsEnough) {
   const Camera camera = testing::smallCamera();
   const Wall wall{[](double x, double y) {
-    // Of 1.5 gray levels, eight pixels long.
+    // Waves of 1.5 gray levels, eight pixels long.
     return testing::stripes(y) +
            1.5 * (std::sin(52.0 * x + 8.0 * y) + std::sin(45.0 * x - 9.0 * y));
   }};

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
+#include <cmath>
 #include <limits>
 #include <opencv2/core.hpp>
 
@@ -9,7 +10,7 @@
 #include "support/camera_path.h"
 #include "support/random_pose.h"
 
-// What happens to Odometry when frames are useless, broken or absurd.
+// Odometry with frames that are unusable, broken or absurd.
 
 namespace mivo {
 namespace {
@@ -133,7 +134,7 @@ TEST_P(TrackingLossTest, ADarkFrameMakesNoKeyframeHoweverLongItLasts) {
   for (int i = 0; i < 12; ++i) odometry_.process(coveredLens(stamp += kFramePeriod));
   EXPECT_EQ(odometry_.result().keyframes, keyframes);
   EXPECT_EQ(odometry_.result().state, TrackingState::kLost);
-  // The camera has stood still meanwhile.
+  // The camera did not move meanwhile.
   const TrackingResult& result = odometry_.process(stamped(walk().frames[3], stamp + kFramePeriod));
   EXPECT_EQ(result.state, TrackingState::kTracking);
   EXPECT_LT(distance(result.T_odom_camera, walk().T_first_camera[3]), 0.01);
@@ -220,7 +221,7 @@ bool isRigid(const Eigen::Isometry3d& T) {
          T.linear().determinant() > 0.0;
 }
 
-/// Frames as no camera should deliver them.
+/// Frames that no camera should deliver.
 class AbsurdFrames {
  public:
   explicit AbsurdFrames(std::uint64_t seed) : random_(seed) {}
@@ -314,14 +315,14 @@ TEST(AbsurdFramesTest, NoFrameMakesTheResultNotFinite) {
       ASSERT_GT(solver.eigenvalues().minCoeff(), 0.0) << i;
       ASSERT_TRUE(odometry.predictedPose(result.stamp + 1.0).matrix().allFinite());
     }
-    // And after all that a sequence is followed again.
+    // Afterwards a sequence is tracked again.
     const double stamp = odometry.result().stamp;
     odometry.reset();
     for (std::size_t i = 0; i < 5; ++i) {
       odometry.process(stamped(walk().frames[i], stamp + kFramePeriod * static_cast<double>(i)));
     }
     EXPECT_EQ(odometry.result().state, TrackingState::kTracking);
-    // Mutual information is flat at its top.
+    // The maximum of mutual information is flat.
     EXPECT_LT(distance(odometry.result().T_odom_camera, walk().T_first_camera[4]), 0.02);
   }
 }

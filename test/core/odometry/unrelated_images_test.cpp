@@ -5,7 +5,7 @@
 #include "support/camera_path.h"
 #include "support/random_pose.h"
 
-// Images that have nothing in common must not be taken for a motion, by any method.
+// No method may accept an alignment of images that have nothing in common.
 
 namespace mivo {
 namespace {
@@ -27,7 +27,7 @@ Camera noiseCamera() {
   return camera;
 }
 
-/// Another one for each index, two meters away.
+/// A different wall for each index, two meters away.
 Frame noise(int index) {
   const Camera camera = noiseCamera();
   testing::Random random(static_cast<std::uint64_t>(index) + 1);

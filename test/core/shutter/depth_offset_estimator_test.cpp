@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "core/alignment/align.h"
 #include "core/terms/geometric_term.h"
 #include "support/random_pose.h"
@@ -13,12 +15,12 @@ namespace {
 
 using testing::Random;
 
-/// Into a corner of the room: three walls fix all six directions.
+/// A view into a corner of the room: three walls constrain all six directions.
 const Eigen::Isometry3d kIntoCorner =
     retract((Vector6() << 0.3, 0.2, -0.3, 0.0, 0.7, 0.0).finished()) *
     retract((Vector6() << 0.0, 0.0, 0.0, -0.5, 0.0, 0.0).finished());
 
-/// Of the scene in the camera's axes when the camera moves by a step.
+/// Motion of the scene in the camera's axes when the camera moves by a step.
 Vector6 sceneTwist(const Vector6& step) {
   return localCoordinates(retract(step).inverse());
 }
@@ -33,7 +35,7 @@ class DepthOffsetTest : public ::testing::Test {
     return frame;
   }
 
-  /// What the pair says when the offset is taken to be `assumed`.
+  /// The measurement from the pair, with `assumed` as the offset in use.
   DepthOffsetMeasurement measure(double offset, double assumed) const {
     Parameters parameters;
     parameters.shutter.depth_time_offset_estimation = true;
@@ -56,8 +58,8 @@ class DepthOffsetTest : public ::testing::Test {
       retract((Vector6() << 0.01, -0.01, 0.02, 0.01, 0.02, -0.01).finished());
 };
 
-// Near where two walls meet a reading may leap from one to the other, which the gradient knows
-// nothing of: hence the wide step and the tolerance.
+// At the edge between two walls a reading may jump from one to the other, which the gradient does
+// not describe: hence the wide step and the tolerance.
 TEST_F(DepthOffsetTest, TheGradientIsThatOfTheGeometricTerm) {
   constexpr double kStep = 0.04;
   for (const double offset : {0.0, 0.3}) {
@@ -66,7 +68,7 @@ TEST_F(DepthOffsetTest, TheGradientIsThatOfTheGeometricTerm) {
     FramePyramid live;
     live.build(film(kIntoCorner * T_live_ref_.inverse(), after_, offset), parameters);
     for (const std::uint64_t seed : {1, 2, 3}) {
-      // Off the minimum, or there would be no gradient.
+      // Not at the minimum, where the gradient is zero.
       const Eigen::Isometry3d pose = T_live_ref_ * Random(seed).pose(0.004, 0.002);
       const auto modelAt = [&](double assumed) {
         GeometricPoints points;
@@ -110,7 +112,7 @@ TEST_F(DepthOffsetTest, ASteadyMotionSaysNothing) {
 
 class DepthOffsetEstimatorTest : public ::testing::Test {
  protected:
-  /// A keyframe whose frames all ask for the same correction.
+  /// A keyframe all of whose frames measure the same correction.
   void keyframe(double correction, double information = 80.0) {
     for (int i = 0; i < 4; ++i) estimator_.add({correction, information});
     estimator_.endKeyframe();

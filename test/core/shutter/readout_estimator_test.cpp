@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "support/analytic_points.h"
 #include "support/random_pose.h"
 
@@ -22,8 +24,8 @@ class MeasureReadoutTest : public ::testing::Test {
     }
   }
 
-  /// Residuals as a wrong pose d and a read-out wrong by `readout` make them, to first order: a
-  /// point of the keyframe that moves by m raises what the keyframe shows by J m.
+  /// First-order residuals of a pose error d and an error `readout` of the read-out time: when a
+  /// point moves by m, its intensity in the keyframe changes by J m.
   Residuals residualsOf(const Vector6& d, double readout) const {
     Residuals residuals;
     const Eigen::Matrix3d R = velocities_.T_live_ref.linear();
@@ -33,7 +35,7 @@ class MeasureReadoutTest : public ::testing::Test {
       const Eigen::Vector3d q = R * X + t;
       const double tau_live = static_cast<double>(rows_[i]) / kHeight - 0.5;
       const double tau_keyframe = points_.pixels[i].y / kHeight - 0.5;
-      // What is left out: the live point's motion until its row is read, and the keyframe's.
+      // The neglected motion: of the live point until its row is read, and of the keyframe's.
       const Eigen::Vector3d live =
           tau_live * (velocities_.live.tail<3>().cross(q) + velocities_.live.head<3>());
       const Eigen::Vector3d keyframe =
@@ -98,7 +100,7 @@ TEST_F(MeasureReadoutTest, NothingInViewSaysNothing) {
 
 class ReadoutEstimatorTest : public ::testing::Test {
  protected:
-  /// A keyframe whose frames all ask for the same correction.
+  /// A keyframe all of whose frames measure the same correction.
   void keyframe(double correction, int frames = 10, double information = 400.0) {
     for (int i = 0; i < frames; ++i) estimator_.add({correction, information});
     estimator_.endKeyframe();
@@ -127,7 +129,8 @@ TEST_F(ReadoutEstimatorTest, TwoKeyframesInARowSwitchItOn) {
   EXPECT_GT(estimator_.readout(), 0.3);
 }
 
-// What moving shadows do: they ask for a long read-out, and for the opposite once it is believed.
+// The effect of moving shadows: they suggest a long read-out time, and the opposite once it is
+// used.
 TEST_F(ReadoutEstimatorTest, WhatTheNextKeyframesContradictIsRevokedAndNotBelievedAgainSoon) {
   keyframe(0.17);
   keyframe(0.17);
@@ -151,7 +154,7 @@ TEST_F(ReadoutEstimatorTest, ItOnlyChangesWithAKeyframe) {
   EXPECT_GT(estimator_.readout(), before);
 }
 
-// Each correction is too small by the same factor, for the pose takes up most of the effect.
+// Each correction is too small by the same factor, since the pose absorbs most of the effect.
 TEST_F(ReadoutEstimatorTest, ItSettlesAtTheTruth) {
   for (const double truth : {0.65, 0.7, 0.75}) {
     estimator_ = ReadoutEstimator();

@@ -18,7 +18,7 @@ class ShutterModelTest : public ::testing::Test {
  protected:
   ShutterModelTest() { parameters_.depth_time_offset_estimation = true; }
 
-  /// Keyframes that agree on an offset, periods from the one in use at first.
+  /// Keyframes that measure the same offset, in periods relative to the initial one.
   void keyframes(double offset, int count = 10) {
     const double at_first = depthOffset();
     for (int i = 0; i < count; ++i) {
@@ -40,7 +40,7 @@ TEST_F(ShutterModelTest, WhatIsGivenHolds) {
   const ShutterTimes times = model_.times(parameters_, kFramePeriod);
   EXPECT_NEAR(times.readout, 0.6, 1e-12);
   EXPECT_NEAR(times.depth_offset, -0.3, 1e-12);
-  // Without a period nothing is known of its shares.
+  // Without a known frame period, fractions of it are unknown.
   EXPECT_EQ(model_.times(parameters_, 0.0).readout, 0.0);
   EXPECT_EQ(model_.times(parameters_, 0.0).depth_offset, 0.0);
 }
@@ -69,7 +69,7 @@ TEST_F(ShutterModelTest, NobodyIsToldWhatWasNotAskedFor) {
 
 constexpr int kFrames = 50;
 
-/// A shaken camera whose depth is taken `offset` s later than color.
+/// A shaking camera whose depth is taken `offset` s later than color.
 std::vector<Frame> filmShaken(double offset) {
   const auto poseAt = [](double t) {
     Vector6 d;
@@ -91,7 +91,7 @@ std::vector<Frame> filmShaken(double offset) {
   return frames;
 }
 
-/// The depth offset, s, that the odometry finds in them.
+/// The depth offset that the odometry estimates from them, s.
 double offsetFound(const std::vector<Frame>& frames, bool is_wanted) {
   Parameters parameters;
   parameters.shutter.depth_time_offset_estimation = is_wanted;

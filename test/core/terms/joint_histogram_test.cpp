@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <opencv2/core.hpp>
+#include <utility>
 
 #include "support/analytic_image.h"
 #include "support/reference_mutual_information.h"

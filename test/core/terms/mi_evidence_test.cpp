@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 #include "core/terms/joint_histogram.h"
 #include "support/random_pose.h"

@@ -27,8 +27,8 @@ struct Pair {
   IntensityRange live_range;
 };
 
-// Different statistics on the two sides, rising and falling relations, and both orders: what an
-// exchanged axis or marginal would go unnoticed with is a symmetric pair.
+// Images of different statistics, increasing and decreasing relations, and both orders. With a
+// symmetric pair, exchanged axes or marginals would not be noticed.
 std::vector<Pair> asymmetricPairs() {
   const IntensityRange waves{38.0F, 218.0F};
   const IntensityRange negative{35.0F, 185.0F};
@@ -189,8 +189,8 @@ TEST(MiTermTest, SelfAlignmentIsAMinimumOfTheCost) {
   }
 }
 
-// What a derivation after Gauss and Newton would keep: the products of first derivatives of the
-// probabilities. It says that the best alignment is the worst.
+// A Gauss-Newton derivation would keep the products of first derivatives of the probabilities. It
+// would turn the maximum into a minimum.
 TEST(MiTermTest, WithoutTheWindowsSecondDerivativeTheHessianHasTheWrongSign) {
   Problem problem(selfPair(), {});
   problem.evaluate(Eigen::Isometry3d::Identity());

@@ -40,7 +40,7 @@ TEST(MotionPriorTermTest, GradientAndHessianAreThoseOfTheCost) {
     const QuadraticModel model = prior.linearize(0);
     EXPECT_NEAR(model.cost, cost_there, 1e-12);
     EXPECT_LT(testing::relativeError(model.gradient, gradient), 1e-5);
-    // The approximation of Gauss and Newton is exact where the error is nought.
+    // The Gauss-Newton approximation is exact at zero error.
     const auto there = [&](const Vector6& d) { return prior.evaluate(moved(predicted, d)); };
     const Matrix6 hessian = testing::numericHessian<6>(there, Vector6::Zero(), 1e-4);
     prior.evaluate(predicted);

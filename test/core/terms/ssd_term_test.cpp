@@ -21,7 +21,7 @@ using testing::Random;
 const RobustWeight kKinds[] = {RobustWeight::kNone, RobustWeight::kHuber, RobustWeight::kTukey,
                                RobustWeight::kStudentT};
 
-/// The losses once more, in double precision.
+/// The losses written independently, in double precision.
 double loss(RobustWeight kind, double u) {
   switch (kind) {
     case RobustWeight::kHuber:
@@ -56,7 +56,7 @@ class SsdTermTest : public ::testing::Test {
     return SsdTerm(points_, points_.size(), live_, nullptr, warp_, parameters);
   }
 
-  /// The cost by its definition: the live samples stay, the keyframe is warped by the increment.
+  /// The cost by definition: live samples are fixed, the keyframe is warped by the increment.
   double bruteForceCost(const SsdTerm& term, RobustWeight kind, const Vector6& d) const {
     double sum = 0.0;
     for (std::size_t i = 0; i < points_.size(); ++i) {
@@ -69,8 +69,8 @@ class SsdTermTest : public ::testing::Test {
     return sum * static_cast<double>(points_.size()) / static_cast<double>(term.numVisible());
   }
 
-  /// Sum of w J Jᵀ / scale², the approximation of Gauss and Newton, times the share of the loss's
-  /// curvature in the weights for Gaussian residuals.
+  /// Sum of w J Jᵀ / scale² (Gauss-Newton), times the ratio of the loss's curvature to the weights
+  /// for Gaussian residuals.
   Matrix6 bruteForceHessian(const SsdTerm& term, RobustWeight kind) const {
     Matrix6 sum = Matrix6::Zero();
     for (std::size_t i = 0; i < points_.size(); ++i) {

@@ -2,6 +2,7 @@
 #include "served_sequence.h"
 
 #include <cmath>
+#include <cstdint>
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
