@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/odometry_services.h"
 
-#include "mivo/core/error.h"
 #include "ros/pose_conversion.h"
 #include "ros/topics.h"
 
@@ -15,7 +14,7 @@ bool answer(Response& response, Action&& action) {
   try {
     response.message = action();
     response.success = true;
-  } catch (const Error& error) {
+  } catch (const std::exception& error) {  // not an Error: of the file system
     response.message = error.what();
     response.success = false;
   }
