@@ -2,7 +2,9 @@
 #pragma once
 
 #include <ros/console.h>
+#include <ros/time.h>
 
+#include <atomic>
 #include <exception>
 
 namespace mivo {
@@ -15,7 +17,13 @@ void guardedCall(const char* name, const Call& call) {
   try {
     call();
   } catch (const std::exception& error) {
-    ROS_ERROR_THROTTLE(kLogPeriod, "%s failed: %s", name, error.what());
+    // In wall time: a simulated clock may stand still.
+    static std::atomic<double> next{0.0};
+    double due = next;
+    const double now = ros::WallTime::now().toSec();
+    if (now >= due && next.compare_exchange_strong(due, now + kLogPeriod)) {
+      ROS_ERROR("%s failed: %s", name, error.what());
+    }
   }
 }
 
