@@ -2,6 +2,7 @@
 #include "io/image_decoding.h"
 
 #include <boost/crc.hpp>
+#include <cctype>
 #include <cstdint>
 #include <cstring>
 #include <opencv2/imgcodecs.hpp>
@@ -21,6 +22,13 @@ struct Encoded {
   const std::string& name;
 
   [[noreturn]] void refuseTruncated() const { throw Error(name + " is truncated"); }
+
+  /// Before memory is asked for: a file of 100 bytes may claim any size.
+  void checkSize(std::uint64_t width, std::uint64_t height) const {
+    if (height == 0 || width <= kMaxImagePixels / height) return;
+    throw Error(name + " is of " + std::to_string(width) + " x " + std::to_string(height) +
+                " pixels, as it says; at most " + std::to_string(kMaxImagePixels) + " are read");
+  }
 };
 
 constexpr std::string_view kPngSignature = "\x89PNG\r\n\x1A\n"sv;
@@ -41,10 +49,31 @@ constexpr Signature kSignatures[] = {
 constexpr std::size_t kLengthSize = 4;
 constexpr std::size_t kTypeSize = 4;
 constexpr std::size_t kChecksumSize = 4;
+constexpr std::size_t kSizesLength = 8;  // width and height, which the first chunk begins with
 
 std::uint32_t bigEndian(const unsigned char* bytes) {
   return std::uint32_t{bytes[0]} << 24 | std::uint32_t{bytes[1]} << 16 |
          std::uint32_t{bytes[2]} << 8 | std::uint32_t{bytes[3]};
+}
+
+/// Of a PGM: whole numbers behind its two letters, with blanks and comments between them.
+std::uint64_t pgmNumber(const Encoded& image, std::size_t& position) {
+  const auto at = [&] { return position < image.count ? image.bytes[position] : 0; };
+  for (bool is_comment = false; is_comment || at() == '#' || std::isspace(at()) != 0; ++position) {
+    if (position >= image.count) image.refuseTruncated();
+    is_comment = at() != '\n' && (is_comment || at() == '#');
+  }
+  std::uint64_t number = 0;
+  for (; std::isdigit(at()) != 0 && number <= kMaxImagePixels; ++position) {
+    number = 10 * number + (at() - std::uint64_t{'0'});
+  }
+  return number;
+}
+
+void checkPgmSize(const Encoded& image) {
+  std::size_t position = 2;
+  const std::uint64_t width = pgmNumber(image, position);
+  image.checkSize(width, pgmNumber(image, position));
 }
 
 /// Walks the chunks up to the one that ends the image.
@@ -60,9 +89,18 @@ void checkPng(const Encoded& image) {
     if (checksum.checksum() != bigEndian(type + kTypeSize + length)) {
       throw Error(image.name + " is damaged: a checksum is wrong");
     }
+    if (std::memcmp(type, "IHDR", kTypeSize) == 0 && length >= kSizesLength) {
+      image.checkSize(bigEndian(type + kTypeSize), bigEndian(type + kTypeSize + 4));
+    }
     if (std::memcmp(type, "IEND", kTypeSize) == 0) return;
     position += kLengthSize + kTypeSize + length + kChecksumSize;
   }
+}
+
+/// Of a JPEG: the segment holds the size, behind its own length and the bits of a sample.
+bool isFrameHeader(unsigned char type) {
+  const bool is_table = type == 0xC4 || type == 0xC8 || type == 0xCC;
+  return type >= 0xC0 && type <= 0xCF && !is_table;
 }
 
 /// Walks the segments up to the mark that ends the image: a preview inside of a segment has one,
@@ -82,6 +120,11 @@ void checkJpeg(const Encoded& image) {
     }
     if (type == kEnd) return;
     if (i + 3 >= image.count) break;
+    if (isFrameHeader(type) && i + 8 < image.count) {
+      const auto word = [&](std::size_t at) { return image.bytes[at] << 8 | image.bytes[at + 1]; };
+      image.checkSize(static_cast<std::uint64_t>(word(i + 7)),
+                      static_cast<std::uint64_t>(word(i + 5)));
+    }
     i += 2U + (std::size_t{image.bytes[i + 2]} << 8 | image.bytes[i + 3]);
   }
   image.refuseTruncated();
@@ -112,6 +155,7 @@ cv::Mat decodeImage(const unsigned char* bytes, std::size_t count, const std::st
   }
   if (format == "PNG") checkPng(encoded);
   if (format == "JPEG") checkJpeg(encoded);
+  if (format == "PGM") checkPgmSize(encoded);
   cv::Mat image;
   try {
     const cv::Mat data(1, static_cast<int>(count), CV_8UC1, const_cast<unsigned char*>(bytes));

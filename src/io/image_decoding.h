@@ -2,10 +2,14 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <opencv2/core/mat.hpp>
 #include <string>
 
 namespace mivo {
+
+/// Images of more pixels are refused: four times those of the largest RGB-D cameras.
+constexpr std::uint64_t kMaxImagePixels = std::uint64_t{1} << 26;
 
 /// What an encoded image is by its first bytes: "PNG", "JPEG" and "PGM", which are read, or
 /// another name; empty when they say nothing.

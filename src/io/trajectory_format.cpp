@@ -46,7 +46,9 @@ StampedPose poseOf(const TableReader& table, const PoseColumns& columns) {
   pose.stamp = table.number(columns.stamp);
   if (columns.nanoseconds) pose.stamp += kNanosecond * table.number(*columns.nanoseconds);
   const auto& p = columns.position;
-  pose.pose.translation() << table.number(p[0]), table.number(p[1]), table.number(p[2]);
+  // Not by Eigen's comma initializer, which must not be left by an exception.
+  pose.pose.translation() =
+      Eigen::Vector3d(table.number(p[0]), table.number(p[1]), table.number(p[2]));
   pose.pose.linear() = quaternion(table, columns.quaternion).toRotationMatrix();
   return pose;
 }
@@ -65,6 +67,9 @@ PoseColumns plainColumns(std::size_t count, std::size_t first_number, Quaternion
 
 /// Three rows of a rotation and a translation.
 StampedPose kittiPose(const TableReader& table, std::size_t number) {
+  if (table.size() != kKittiColumns) {
+    table.refuse(fmt::format("expected {} numbers, found {}", kKittiColumns, table.size()));
+  }
   StampedPose pose;
   pose.stamp = static_cast<double>(number);
   Eigen::Matrix3d rotation;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <filesystem>
 
 #include "io/trajectory_format.h"
 #include "mivo/core/error.h"
@@ -32,6 +33,22 @@ void TrajectoryWriter::write(const StampedPose& pose) {
     throw Error("a pose for " + file_.path() + " is not finite");
   }
   file_.write(trajectoryLine(pose));
+}
+
+void writeTrajectory(const std::string& path, const Trajectory& trajectory, Overwrite overwrite) {
+  namespace fs = std::filesystem;
+  refuseExisting(path, overwrite);
+  const std::string part = path + ".part";
+  std::error_code error;
+  try {
+    TrajectoryWriter writer(part, Overwrite::kYes);
+    for (const StampedPose& pose : trajectory) writer.write(pose);
+  } catch (const Error&) {
+    fs::remove(part, error);  // what is wrong is known already
+    throw;
+  }
+  fs::rename(part, path, error);
+  if (error) throw Error("cannot rename " + part + " to " + path + ": " + error.message());
 }
 
 }  // namespace mivo

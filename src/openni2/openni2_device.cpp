@@ -5,6 +5,9 @@
 
 #include <array>
 #include <atomic>
+#include <list>
+#include <memory>
+#include <mutex>
 #include <type_traits>
 #include <utility>
 
@@ -28,6 +31,16 @@ struct Handles {
   openni::Device device;
   std::array<openni::VideoStream, kStreamKinds> streams;
 };
+
+/// The threads of the Dummy's streams do not end with stop() but a frame later, and nobody waits
+/// for them: stream and driver must never go away, not at the end of the process either, or they
+/// run in memory that is gone.
+void keepForever(std::unique_ptr<Handles> handles) {
+  static auto& kept = *new std::list<std::unique_ptr<Handles>>;
+  static std::mutex mutex;
+  const std::lock_guard<std::mutex> lock(mutex);
+  kept.push_back(std::move(handles));
+}
 
 openni::SensorType sensorOf(StreamKind kind) {
   return kind == StreamKind::kColor ? openni::SENSOR_COLOR : openni::SENSOR_DEPTH;
@@ -63,9 +76,7 @@ class OpenNi2Device::Implementation : private openni::OpenNI::DeviceDisconnected
       stream.stop();
     }
     if (description_.uri == kDummyUri && has_streamed_) {
-      // The threads of its streams do not end with stop() but a frame later, and nobody waits for
-      // them: stream and driver must never go away, or they run in memory that is gone.
-      static_cast<void>(handles_.release());
+      keepForever(std::move(handles_));
     }
   }
 

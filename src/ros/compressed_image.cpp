@@ -80,7 +80,7 @@ class RvlDecoder {
     cv::Mat image(rows, columns, CV_16UC1);
     auto* depth = image.ptr<std::uint16_t>();
     std::size_t left = image.total();
-    std::int64_t reading = 0;
+    std::uint64_t reading = 0;  // whole turns cancel; damaged numbers may be of any size
     while (left > 0) {
       const std::size_t zeros = run(left);
       depth = std::fill_n(depth, zeros, std::uint16_t{0});
@@ -89,7 +89,7 @@ class RvlDecoder {
       left -= readings;
       for (std::size_t i = 0; i < readings; ++i) {
         const std::uint64_t zigzag = number();
-        reading += static_cast<std::int64_t>(zigzag >> 1) ^ -static_cast<std::int64_t>(zigzag & 1);
+        reading += (zigzag >> 1) ^ (0 - (zigzag & 1));
         *depth++ = static_cast<std::uint16_t>(reading);
       }
       if (zeros + readings == 0 && left > 0) refuse();
@@ -133,12 +133,12 @@ class RvlDecoder {
 };
 
 cv::Mat decodeRvl(const Bytes& data) {
-  constexpr int kMaxSize = 16384;  // pixels
   std::array<std::int32_t, 2> size{};
   const std::size_t begin = kDepthHeaderBytes + sizeof(size);
   if (data.size() < begin) throw Error("compressed depth: its RVL is truncated");
   std::memcpy(size.data(), data.data() + kDepthHeaderBytes, sizeof(size));
-  if (size[0] <= 0 || size[1] <= 0 || size[0] > kMaxSize || size[1] > kMaxSize) {
+  if (size[0] <= 0 || size[1] <= 0 ||
+      static_cast<std::uint64_t>(size[0]) * static_cast<std::uint64_t>(size[1]) > kMaxImagePixels) {
     throw Error("compressed depth: its RVL is of " + std::to_string(size[0]) + " x " +
                 std::to_string(size[1]) + " pixels");
   }

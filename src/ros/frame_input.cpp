@@ -10,6 +10,7 @@
 
 #include "ros/clock_fault.h"
 #include "ros/depth_geometry.h"
+#include "ros/guarded_call.h"
 #include "ros/node_topics.h"
 #include "ros/stamp.h"
 
@@ -64,10 +65,14 @@ FrameInput::FrameInput(const ros::NodeHandle& private_node, const NodeParameters
           [this](ImageStream stream, ImageMessageConstPtr&) { countSingle(stream); }),
       color_(private_node, topicBeside(private_node, topics::kColor), parameters.rgb_transport,
              subscriberQueue(parameters),
-             [this](const ImageMessageConstPtr& message) { take(ImageStream::kColor, message); }),
+             [this](const ImageMessageConstPtr& message) {
+               guardedCall("the input of images", [&] { take(ImageStream::kColor, message); });
+             }),
       depth_(private_node, topicBeside(private_node, topics::kDepth), parameters.depth_transport,
              subscriberQueue(parameters),
-             [this](const ImageMessageConstPtr& message) { take(ImageStream::kDepth, message); }),
+             [this](const ImageMessageConstPtr& message) {
+               guardedCall("the input of images", [&] { take(ImageStream::kDepth, message); });
+             }),
       early_(parameters.drop_frames ? FrameQueue<ImagePair>::Policy::kNewest
                                     : FrameQueue<ImagePair>::Policy::kAll,
              static_cast<std::size_t>(parameters_.queue_size)),
@@ -79,18 +84,24 @@ FrameInput::FrameInput(const ros::NodeHandle& private_node, const NodeParameters
   countOf(ImageStream::kDepth).topic = depth_.topic();
   camera_info_count_.topic = handle.resolveName(camera_info_topic);
   const boost::function<void(const sensor_msgs::CameraInfoConstPtr&)> take_info =
-      [this](const sensor_msgs::CameraInfoConstPtr& message) { takeCameraInfo(message); };
+      [this](const sensor_msgs::CameraInfoConstPtr& message) {
+        guardedCall("the input of camera_info", [&] { takeCameraInfo(message); });
+      };
   camera_info_subscriber_ = handle.subscribe<sensor_msgs::CameraInfo>(
       camera_info_topic, static_cast<std::uint32_t>(parameters.queue_size), take_info);
   const boost::function<void(const sensor_msgs::CameraInfoConstPtr&)> take_depth_info =
-      [this](const sensor_msgs::CameraInfoConstPtr& message) { takeDepthInfo(message); };
+      [this](const sensor_msgs::CameraInfoConstPtr& message) {
+        guardedCall("the input of camera_info", [&] { takeDepthInfo(message); });
+      };
   depth_info_subscriber_ = handle.subscribe<sensor_msgs::CameraInfo>(
       cameraInfoBeside(depth_.topic()), static_cast<std::uint32_t>(parameters.queue_size),
       take_depth_info);
   color_.subscribe(private_node);
   depth_.subscribe(private_node);
-  timer_ = handle.createWallTimer(ros::WallDuration(kWatchPeriod),
-                                  [this](const ros::WallTimerEvent&) { watch(); });
+  timer_ =
+      handle.createWallTimer(ros::WallDuration(kWatchPeriod), [this](const ros::WallTimerEvent&) {
+        guardedCall("the watch of the inputs", [this] { watch(); });
+      });
 }
 
 void FrameInput::take(ImageStream stream, const ImageMessageConstPtr& message) {
@@ -171,7 +182,8 @@ void FrameInput::complete(ImagePair pair) {
 }
 
 void FrameInput::keepEarly(ImagePair pair) {
-  early_.push(std::move(pair));
+  const std::size_t bytes = pair.bytes();
+  early_.push(std::move(pair), bytes);
   if (parameters_.drop_frames || early_.dropped() == 0) return;
   ROS_WARN_THROTTLE(kSilence,
                     "no calibration has arrived on %s, and more frames than queue_size (%d) wait "
@@ -202,8 +214,10 @@ void FrameInput::stop() {
   depth_.shutdown();
   camera_info_subscriber_.shutdown();
   depth_info_subscriber_.shutdown();
-  pairer_.flush();
-  giveOut(true);
+  guardedCall("the last frames", [this] {
+    pairer_.flush();
+    giveOut(true);
+  });
 }
 
 std::string FrameInput::silence() {

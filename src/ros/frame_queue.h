@@ -10,8 +10,10 @@
 
 namespace mivo {
 
-/// Capacity where no frame may be dropped: 1.5 GB of 640 x 480 pixels.
+/// Capacity where no frame may be dropped, in frames and in bytes: the first is enough for a
+/// minute's delay at half the rate of an Xtion, the second is what so many of its frames take.
 constexpr std::size_t kMaxBacklog = 1000;
+constexpr std::size_t kMaxBacklogBytes = 1'600'000'000;
 
 /// Frames between the thread that receives them and the one that tracks them.
 template <typename Item>
@@ -22,17 +24,22 @@ class FrameQueue {
     kAll      ///< all frames wait; beyond the capacity the oldest are dropped
   };
 
-  explicit FrameQueue(Policy policy, std::size_t capacity = kMaxBacklog)
-      : policy_(policy), capacity_(policy == Policy::kNewest ? 1 : capacity) {}
+  explicit FrameQueue(Policy policy, std::size_t capacity = kMaxBacklog,
+                      std::size_t max_bytes = kMaxBacklogBytes)
+      : policy_(policy),
+        capacity_(policy == Policy::kNewest ? 1 : capacity),
+        max_bytes_(max_bytes) {}
 
   /// Does nothing once the queue is closed.
-  void push(Item item) {
+  /// @param bytes  that the item keeps in memory; the newest one is kept however large
+  void push(Item item, std::size_t bytes = 0) {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       if (closed_) return;
-      items_.push_back(std::move(item));
-      if (items_.size() > capacity_) {
-        items_.pop_front();
+      items_.push_back({std::move(item), bytes});
+      bytes_ += bytes;
+      while (items_.size() > capacity_ || (bytes_ > max_bytes_ && items_.size() > 1)) {
+        takeFront();
         ++dropped_;
       }
     }
@@ -45,9 +52,7 @@ class FrameQueue {
     std::unique_lock<std::mutex> lock(mutex_);
     changed_.wait(lock, [this] { return closed_ || !items_.empty(); });
     if (items_.empty()) return std::nullopt;
-    Item item = std::move(items_.front());
-    items_.pop_front();
-    return item;
+    return takeFront();
   }
 
   /// Wakes the consumer. With kAll it still receives waiting frames, with kNewest none.
@@ -55,7 +60,7 @@ class FrameQueue {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       closed_ = true;
-      if (policy_ == Policy::kNewest) items_.clear();
+      if (policy_ == Policy::kNewest) discard();
     }
     changed_.notify_all();
   }
@@ -64,7 +69,7 @@ class FrameQueue {
   std::size_t clear() {
     const std::lock_guard<std::mutex> lock(mutex_);
     const std::size_t count = items_.size();
-    items_.clear();
+    discard();
     return count;
   }
 
@@ -80,11 +85,30 @@ class FrameQueue {
   }
 
  private:
+  struct Waiting {
+    Item item;
+    std::size_t bytes;
+  };
+
+  Item takeFront() {
+    Waiting front = std::move(items_.front());
+    items_.pop_front();
+    bytes_ -= front.bytes;
+    return std::move(front.item);
+  }
+
+  void discard() {
+    items_.clear();
+    bytes_ = 0;
+  }
+
   const Policy policy_;
   const std::size_t capacity_;
+  const std::size_t max_bytes_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
-  std::deque<Item> items_;
+  std::deque<Waiting> items_;
+  std::size_t bytes_ = 0;  // of them
   std::uint64_t dropped_ = 0;
   bool closed_ = false;
 };

@@ -24,6 +24,9 @@ struct ImageMessage {
   sensor_msgs::CompressedImageConstPtr compressed;
   ros::WallTime arrival;  ///< in this node
 
+  /// Of the pixels.
+  std::size_t bytes() const { return raw ? raw->data.size() : compressed->data.size(); }
+
   /// See the functions of the same names for messages.
   ColorImage toColorImage() const {
     return raw ? mivo::toColorImage(*raw) : mivo::toColorImage(*compressed);
@@ -59,6 +62,8 @@ struct ImagePair {
   std::string fault = "";  ///< why it cannot be believed; empty: it can
   std::optional<DepthGeometry> depth_geometry =
       std::nullopt;  ///< nothing: depth is registered to color
+
+  std::size_t bytes() const { return color->bytes() + depth->bytes(); }
 
   /// Arrival of the later one.
   ros::WallTime arrival() const { return std::max(color->arrival, depth->arrival); }

@@ -7,6 +7,7 @@
 #include "mivo/core/error.h"
 #include "ros/camera_conversion.h"
 #include "ros/depth_geometry.h"
+#include "ros/guarded_call.h"
 #include "ros/parameter_server.h"
 #include "ros/stamp.h"
 
@@ -48,9 +49,10 @@ OdometryNode::OdometryNode(const ros::NodeHandle& node, const ros::NodeHandle& p
   reconfigure_ = std::make_unique<ReconfigureServer>(
       service_node, session_.parameters(),
       [this](const Parameters& parameters) { setParameters(parameters); });
-  diagnostics_timer_ =
-      service_node.createWallTimer(ros::WallDuration(kDiagnosticsPeriod),
-                                   [this](const ros::WallTimerEvent&) { publishDiagnostics(); });
+  diagnostics_timer_ = service_node.createWallTimer(
+      ros::WallDuration(kDiagnosticsPeriod), [this](const ros::WallTimerEvent&) {
+        guardedCall("diagnostics", [this] { publishDiagnostics(); });
+      });
   for (const std::string& fault : findUnknownParameters(private_node, nodeParameterNames())) {
     ROS_WARN_STREAM(fault);
   }
@@ -74,13 +76,13 @@ OdometryNode::~OdometryNode() {
 }
 
 void OdometryNode::enqueue(const ImagePair& pair) {
-  frames_.push(pair);
+  frames_.push(pair, pair.bytes());
   if (parameters_.drop_frames || frames_.dropped() == 0) return;
   ROS_WARN_THROTTLE(
       kLogPeriod,
-      "more than %zu frames are waiting: the oldest are dropped, %lu so far; play the "
+      "%zu frames are waiting, and more are not kept: the oldest are dropped, %lu so far; play the "
       "bag more slowly (rate)",
-      kMaxBacklog, static_cast<unsigned long>(frames_.dropped()));
+      frames_.size(), static_cast<unsigned long>(frames_.dropped()));
 }
 
 void OdometryNode::work() {
@@ -100,10 +102,12 @@ void OdometryNode::work() {
                         "more slowly (rate)",
                         frames_.size());
     }
-    if (has_reset_.exchange(false)) order_.restart();
-    if (!paused_) order_.push(toSeconds(pair->color->header.stamp), *pair);
+    guardedCall("tracking", [&] {
+      if (has_reset_.exchange(false)) order_.restart();
+      if (!paused_) order_.push(toSeconds(pair->color->header.stamp), *pair);
+    });
   }
-  order_.flush();
+  guardedCall("tracking", [this] { order_.flush(); });
 }
 
 /// Depth of a camera beside the color camera is registered, as soon as it is known where that is.
@@ -258,10 +262,19 @@ void OdometryNode::setPaused(bool paused) {
   diagnostics_.setPaused(paused);
 }
 
+/// Written without the mutex: tracking does not wait for the disk.
 std::string OdometryNode::saveTrajectory(const std::string& path, bool force, std::size_t& poses) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  poses = trajectory_.size();
-  return trajectory_.save(path, force ? Overwrite::kYes : Overwrite::kNo);
+  const Overwrite overwrite = force ? Overwrite::kYes : Overwrite::kNo;
+  std::string full_path;
+  Trajectory trajectory;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    full_path = trajectory_.pathToSave(path, overwrite);
+    trajectory = trajectory_.poses();
+  }
+  writeTrajectory(full_path, trajectory, overwrite);
+  poses = trajectory.size();
+  return full_path;
 }
 
 void OdometryNode::setParameters(const Parameters& parameters) {

@@ -17,7 +17,7 @@ bool answer(Response& response, Action&& action) {
   try {
     response.message = action();
     response.success = true;
-  } catch (const Error& error) {
+  } catch (const std::exception& error) {  // not an Error: of the file system
     response.message = error.what();
     response.success = false;
   }

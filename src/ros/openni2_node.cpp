@@ -5,6 +5,7 @@
 
 #include "openni2/openni2_device.h"
 #include "ros/camera_frames.h"
+#include "ros/guarded_call.h"
 
 namespace mivo {
 namespace {
@@ -50,9 +51,10 @@ OpenNi2Node::OpenNi2Node(const ros::NodeHandle& node, const ros::NodeHandle& pri
   }
   server_.setCallback(
       [this](OpenNI2Config& config, std::uint32_t /*level*/) { reconfigure(config); });
-  settings_timer_ =
-      private_node.createWallTimer(ros::WallDuration(kSettingsPeriod),
-                                   [this](const ros::WallTimerEvent&) { publishTrueSettings(); });
+  settings_timer_ = private_node.createWallTimer(
+      ros::WallDuration(kSettingsPeriod), [this](const ros::WallTimerEvent&) {
+        guardedCall("settings", [this] { publishTrueSettings(); });
+      });
   diagnostics_ =
       std::make_unique<CameraDiagnostics>(node, private_node, name_, [this] { return report(); });
 }

@@ -25,11 +25,12 @@ class TrajectoryRecorder {
   /// the next one is name_2.txt after name.txt. Throws Error when it cannot be written.
   void startAnew();
 
-  /// Writes the kept poses. A relative path is resolved in trajectory_folder. Returns the path.
-  /// Throws Error when there is no pose yet, or the file exists and may not be replaced.
-  std::string save(const std::string& path, Overwrite overwrite) const;
+  /// The file for a path inside of trajectory_folder. Throws Error when there is no pose yet, when
+  /// the file exists and may not be replaced, or is the one that is being written.
+  std::string pathToSave(const std::string& path, Overwrite overwrite) const;
 
-  std::size_t size() const { return poses_.size(); }
+  /// The kept poses.
+  Trajectory poses() const { return {poses_.begin(), poses_.end()}; }
 
  private:
   std::string resolve(const std::string& path) const;
@@ -38,6 +39,7 @@ class TrajectoryRecorder {
   NodeParameters parameters_;
   std::deque<StampedPose> poses_;
   std::unique_ptr<TrajectoryWriter> file_;
+  std::string file_path_;
   int number_ = 1;  // of the file
 };
 

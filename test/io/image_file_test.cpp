@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <boost/crc.hpp>
 #include <cmath>
+#include <cstdint>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <random>
@@ -162,6 +164,39 @@ TEST(ImageFileTest, RefusesToWriteNothingAndOverFiles) {
   const std::string path = folder.write("image.png", "old");
   EXPECT_THROW(writePng(path, noise(CV_8UC1), Overwrite::kNo), Error);
   EXPECT_EQ(contentOf(path), "old");
+}
+
+/// A few bytes that claim to be a large image.
+std::string pngClaiming(std::uint32_t width, std::uint32_t height) {
+  const auto word = [](std::uint32_t value) {
+    std::string bytes;
+    for (int shift = 24; shift >= 0; shift -= 8) bytes += static_cast<char>(value >> shift);
+    return bytes;
+  };
+  const auto chunk = [&](const std::string& content) {
+    boost::crc_32_type checksum;
+    checksum.process_bytes(content.data(), content.size());
+    return word(static_cast<std::uint32_t>(content.size() - 4)) + content +
+           word(checksum.checksum());
+  };
+  const std::string how("\x10\0\0\0\0", 5);
+  return "\x89PNG\r\n\x1A\n" + chunk("IHDR" + word(width) + word(height) + how) + chunk("IEND");
+}
+
+TEST(ImageFileTest, ImagesThatClaimTooManyPixelsAreRefusedAtOnce) {
+  const std::string jpeg("\xFF\xD8\xFF\xC0\0\x0B\x08\xFD\xE8\xFD\xE8\x01\x01\x11\0\xFF\xD9", 17);
+  const std::pair<const char*, std::string> files[] = {
+      {"65000 x 65000", jpeg},
+      {"65000 x 65000", "P5\n# made by hand\n65000 65000\n255\n"},
+      {"65000 x 65000", pngClaiming(65000, 65000)},
+      {"2147483648 x 1", pngClaiming(2147483648U, 1)},
+      {"1 x 4294967295", pngClaiming(1, 4294967295U)}};
+  const TemporaryFolder folder;
+  for (const auto& [size, bytes] : files) {
+    const std::string path = folder.write("image", bytes);
+    EXPECT_EQ(errorText([&] { readImage(path); }),
+              path + " is of " + size + " pixels, as it says; at most 67108864 are read");
+  }
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "support/error_text.h"
+#include "support/full_disk.h"
 #include "support/temporary_folder.h"
 
 namespace mivo {
@@ -42,6 +43,22 @@ TEST(OutputFileTest, FullDiskIsAnError) {
   if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "this system has no /dev/full";
   OutputFile file("/dev/full", Overwrite::kYes);
   EXPECT_NE(errorText([&] { file.write("text"); }).find("No space left"), std::string::npos);
+}
+
+TEST(OutputFileTest, AFullDiskLeavesWholePiecesAndLaterOnesGoOn) {
+  const TemporaryFolder folder;
+  OutputFile file(folder / "file", Overwrite::kNo);
+  file.write("first\n");
+  {
+    const FullDisk disk(9);
+    EXPECT_EQ(errorText([&] { file.write("second\n"); }),
+              "cannot write " + file.path() + ": File too large");
+    EXPECT_EQ(contentOf(file.path()), "first\n");
+    EXPECT_NE(errorText([&] { file.write("second\n"); }).find("cannot write"), std::string::npos);
+    file.write("2\n");  // what fits
+  }
+  file.write("third\n");
+  EXPECT_EQ(contentOf(file.path()), "first\n2\nthird\n");
 }
 
 }  // namespace

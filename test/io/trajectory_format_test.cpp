@@ -126,6 +126,7 @@ TEST_F(TrajectoryFormatTest, KittiHasNoStamps) {
   ASSERT_EQ(file.notices.size(), 1U);
   EXPECT_NE(file.notices[0].find("KITTI"), std::string::npos);
   expectRefusal("1 2 3 4 5 6 7 8 9 10 11 12\n", ":1: the 12 numbers are no pose");
+  expectRefusal(line + "\n1 2 3\n", ":2: expected 12 numbers, found 3");
 }
 
 TEST_F(TrajectoryFormatTest, Ros2Csv) {

@@ -3,10 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <iterator>
 #include <limits>
 
 #include "mivo/core/se3.h"
 #include "support/error_text.h"
+#include "support/full_disk.h"
 #include "support/temporary_folder.h"
 
 namespace mivo {
@@ -45,6 +48,29 @@ TEST(TrajectoryIoTest, EachPoseIsOnDiskAtOnce) {
   TrajectoryWriter writer(folder / "trajectory.txt", Overwrite::kNo);
   writer.write(samplePose());
   EXPECT_EQ(readTrajectory(folder / "trajectory.txt").size(), 1U);  // the writer is still open
+}
+
+TEST(TrajectoryIoTest, AWholeTrajectoryIsWrittenAtOnceOrNotAtAll) {
+  const TemporaryFolder folder;
+  const std::string path = folder / "trajectory.txt";
+  const Trajectory poses(3, samplePose());
+  writeTrajectory(path, poses, Overwrite::kNo);
+  const std::string written = contentOf(path);
+  EXPECT_EQ(written, "# stamp tx ty tz qx qy qz qw\n" + trajectoryLine(poses[0]) +
+                         trajectoryLine(poses[0]) + trajectoryLine(poses[0]));
+  EXPECT_NE(errorText([&] { writeTrajectory(path, poses, Overwrite::kNo); }).find("exists"),
+            std::string::npos);
+  {
+    const FullDisk disk(written.size());
+    EXPECT_NE(errorText([&] {
+                writeTrajectory(path, Trajectory(9, samplePose()), Overwrite::kYes);
+              }).find("cannot write"),
+              std::string::npos);
+  }
+  EXPECT_EQ(contentOf(path), written);
+  writeTrajectory(path, {samplePose()}, Overwrite::kYes);
+  EXPECT_EQ(readTrajectory(path).size(), 1U);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1);
 }
 
 TEST(TrajectoryIoTest, ReadsCommentsBlanksTabsAndWindowsLineEnds) {

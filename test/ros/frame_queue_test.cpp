@@ -30,6 +30,25 @@ TEST(FrameQueueTest, NoMoreThanTheCapacityWait) {
   EXPECT_FALSE(queue.pop());
 }
 
+TEST(FrameQueueTest, NoMoreThanTheBytesWait) {
+  Queue queue(Queue::Policy::kAll, 10, 100);
+  for (int i = 0; i < 4; ++i) queue.push(i, 40);  // two of them fit
+  EXPECT_EQ(2U, queue.size());
+  EXPECT_EQ(2U, queue.dropped());
+  EXPECT_EQ(2, *queue.pop());
+  queue.push(4, 60);  // beside the one of 40
+  EXPECT_EQ(2U, queue.size());
+  queue.push(5, 1000);  // alone too large, but the newest
+  EXPECT_EQ(1U, queue.size());
+  EXPECT_EQ(4U, queue.dropped());
+  EXPECT_EQ(5, *queue.pop());
+  queue.push(6, 100);
+  EXPECT_EQ(1U, queue.clear());
+  queue.push(7, 100);
+  EXPECT_EQ(7, *queue.pop());
+  EXPECT_EQ(4U, queue.dropped());
+}
+
 TEST(FrameQueueTest, TheNewestFrameWins) {
   Queue queue(Queue::Policy::kNewest);
   for (int i = 0; i < 5; ++i) queue.push(i);

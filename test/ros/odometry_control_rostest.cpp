@@ -127,6 +127,7 @@ class LostFramesTest : public NodeTest {
   std::vector<double> saveFiveFrames() {
     const TemporaryFolder folder;
     publishCameraOnBase();
+    setParameter("trajectory_folder", folder.path());
     load();
     spoil_ = [this] {
       const ros::Time stamp = next_color_.header.stamp;

@@ -146,7 +146,9 @@ TEST_F(NodeTest, ImagesThatWaitForTheCalibrationAreNotLost) {
 }
 
 TEST_F(NodeTest, DoubledAndLateStampsAreRefusedAndCountedByReason) {
+  const TemporaryFolder folder;
   publishCameraOnBase();
+  setParameter("trajectory_folder", folder.path());
   load();
   for (int i = 0; i < 5; ++i) track(i);
   ASSERT_TRUE(waitFor([&] { return odometries_.size() == 5U; }));
@@ -172,7 +174,6 @@ TEST_F(NodeTest, DoubledAndLateStampsAreRefusedAndCountedByReason) {
            valueOf(input, "skipped frames") == skipped;
   }));
   SaveTrajectory call;
-  const TemporaryFolder folder;
   call.request.path = folder / "all.txt";
   ASSERT_TRUE(ros::service::call(privateName("save_trajectory"), call));
   EXPECT_EQ(6U, call.response.poses);

@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+
 #include "ros/expect_error.h"
+#include "support/full_disk.h"
 #include "support/temporary_folder.h"
 
 namespace mivo {
@@ -43,32 +46,82 @@ TEST_F(TrajectoryRecorderTest, ANewStartBeginsAnotherFile) {
   recorder.add(makePose(1.0));
   EXPECT_EQ(5.0, readTrajectory(folder_ / "run.txt").at(0).stamp);
   EXPECT_EQ(1.0, readTrajectory(folder_ / "run_2.txt").at(0).stamp);
-  EXPECT_EQ(1U, recorder.size());
+  EXPECT_EQ(1U, recorder.poses().size());
 }
 
 TEST_F(TrajectoryRecorderTest, ExistingFilesAreReplacedOnlyByForce) {
   folder_.write("run.txt", "precious");
   parameters_.trajectory_file = "run.txt";
-  EXPECT_ERROR(TrajectoryRecorder(parameters_), "run.txt");
+  EXPECT_ERROR(TrajectoryRecorder(parameters_),
+               "run.txt exists: set another trajectory_file, or trajectory_force to replace it");
   EXPECT_EQ("precious", contentOf(folder_ / "run.txt"));
   parameters_.trajectory_force = true;
   TrajectoryRecorder recorder(parameters_);
   recorder.add(makePose(1.0));
   EXPECT_EQ(1U, readTrajectory(folder_ / "run.txt").size());
-  EXPECT_ERROR(recorder.save("run.txt", Overwrite::kNo), "run.txt");
 }
 
-TEST_F(TrajectoryRecorderTest, SavesWhatItKept) {
+TEST_F(TrajectoryRecorderTest, KeepsTheLastPoses) {
   parameters_.trajectory_length = 3;
   TrajectoryRecorder recorder(parameters_);
-  EXPECT_ERROR(recorder.save("a.txt", Overwrite::kNo), "no pose");
   for (int i = 1; i <= 5; ++i) recorder.add(makePose(i));
-  EXPECT_EQ(folder_ / "a.txt", recorder.save("a.txt", Overwrite::kNo));
-  const Trajectory read = readTrajectory(folder_ / "a.txt");
-  ASSERT_EQ(3U, read.size());
-  EXPECT_EQ(3.0, read.front().stamp);
-  EXPECT_EQ(folder_ / "b.txt", recorder.save(folder_ / "b.txt", Overwrite::kNo));  // absolute
-  EXPECT_ERROR(recorder.save("", Overwrite::kNo), "empty");
+  const Trajectory poses = recorder.poses();
+  ASSERT_EQ(3U, poses.size());
+  EXPECT_EQ(3.0, poses.front().stamp);
+  EXPECT_EQ(5.0, poses.back().stamp);
+}
+
+TEST_F(TrajectoryRecorderTest, SavesInItsFolderAlone) {
+  TrajectoryRecorder recorder(parameters_);
+  EXPECT_ERROR(recorder.pathToSave("a.txt", Overwrite::kNo), "no pose");
+  recorder.add(makePose(1.0));
+  EXPECT_EQ(folder_ / "a.txt", recorder.pathToSave("a.txt", Overwrite::kNo));
+  EXPECT_EQ(folder_ / "b/c.txt", recorder.pathToSave(folder_ / "b/c.txt", Overwrite::kNo));
+  EXPECT_ERROR(recorder.pathToSave("", Overwrite::kNo), "empty");
+
+  const std::string remedy = "is outside of " + folder_.path() + ", the trajectory_folder";
+  EXPECT_ERROR(recorder.pathToSave("../a.txt", Overwrite::kYes), remedy);
+  EXPECT_ERROR(recorder.pathToSave("b/../../a.txt", Overwrite::kYes), remedy);
+  EXPECT_ERROR(recorder.pathToSave(folder_.path() + "2/a.txt", Overwrite::kYes), remedy);
+  EXPECT_ERROR(recorder.pathToSave("/etc/passwd", Overwrite::kYes), remedy);
+  std::filesystem::create_directory_symlink("/tmp", folder_ / "link");
+  EXPECT_ERROR(recorder.pathToSave("link/a.txt", Overwrite::kYes), remedy);
+}
+
+TEST_F(TrajectoryRecorderTest, SavesOverAnotherFileOnlyWhenForced) {
+  folder_.write("old.txt", "precious");
+  parameters_.trajectory_file = "run.txt";
+  TrajectoryRecorder recorder(parameters_);
+  recorder.add(makePose(1.0));
+  EXPECT_ERROR(recorder.pathToSave("old.txt", Overwrite::kNo),
+               "old.txt exists: choose another name, or set force to replace it");
+  EXPECT_EQ(folder_ / "old.txt", recorder.pathToSave("old.txt", Overwrite::kYes));
+  EXPECT_EQ("precious", contentOf(folder_ / "old.txt"));
+}
+
+TEST_F(TrajectoryRecorderTest, NeverSavesOverTheFileThatIsBeingWritten) {
+  parameters_.trajectory_file = "run.txt";
+  TrajectoryRecorder recorder(parameters_);
+  recorder.add(makePose(1.0));
+  std::filesystem::create_hard_link(folder_ / "run.txt", folder_ / "same.txt");
+  for (const char* name : {"run.txt", "./run.txt", "same.txt"}) {
+    EXPECT_ERROR(recorder.pathToSave(name, Overwrite::kYes), "which is being written");
+  }
+}
+
+TEST_F(TrajectoryRecorderTest, AFullDiskCostsOnlyThePosesThatDidNotFit) {
+  parameters_.trajectory_file = "run.txt";
+  TrajectoryRecorder recorder(parameters_);
+  recorder.add(makePose(1.0));
+  {
+    const FullDisk disk(std::filesystem::file_size(folder_ / "run.txt") + 10);
+    EXPECT_ERROR(recorder.add(makePose(2.0)), "cannot write");
+  }
+  recorder.add(makePose(3.0));
+  const Trajectory read = readTrajectory(folder_ / "run.txt");
+  ASSERT_EQ(2U, read.size());
+  EXPECT_EQ(3.0, read[1].stamp);
+  EXPECT_EQ(3U, recorder.poses().size());
 }
 
 }  // namespace

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <fstream>
 #include <string>
 
 namespace mivo {
@@ -13,21 +12,28 @@ enum class Overwrite { kNo, kYes };
 /// Throws Error when `path` exists and may not be replaced, or is a folder.
 void refuseExisting(const std::string& path, Overwrite overwrite);
 
-/// A file that is flushed after each write, so that written data survives a later failure.
+/// A file written piece by piece. A piece is with the system when `write` returns: neither the end
+/// of the process nor a full disk takes it back.
 class OutputFile {
  public:
   /// Creates the file. Throws Error when it exists and may not be replaced, or cannot be created.
   OutputFile(const std::string& path, Overwrite overwrite);
+  ~OutputFile();
+  OutputFile(const OutputFile&) = delete;
+  OutputFile& operator=(const OutputFile&) = delete;
 
-  /// Appends and flushes. Throws Error when writing fails, for instance on a full disk.
+  /// Appends all of it, or nothing: throws Error when that fails, for instance on a full disk. The
+  /// next call tries again.
   void write(const std::string& text);
   void write(const char* bytes, std::size_t count);
 
   const std::string& path() const { return path_; }
 
  private:
+  void takeBack(std::size_t count);
+
   std::string path_;
-  std::ofstream stream_;
+  int descriptor_;
 };
 
 }  // namespace mivo

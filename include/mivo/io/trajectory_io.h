@@ -21,7 +21,7 @@ std::string trajectoryLine(const StampedPose& pose);
 /// and when there is no pose at all.
 Trajectory readTrajectory(const std::string& path);
 
-/// Writes a trajectory pose by pose; each is on disk when `write` has returned.
+/// Writes a trajectory pose by pose; each is in the file when `write` has returned.
 class TrajectoryWriter {
  public:
   /// Throws Error when the file exists and may not be replaced, or cannot be created.
@@ -33,5 +33,9 @@ class TrajectoryWriter {
  private:
   OutputFile file_;
 };
+
+/// Writes a trajectory at once: under its name the file is complete or as it was before. Throws
+/// Error as TrajectoryWriter does.
+void writeTrajectory(const std::string& path, const Trajectory& trajectory, Overwrite overwrite);
 
 }  // namespace mivo
