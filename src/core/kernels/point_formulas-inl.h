@@ -1,14 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
-<<<<<<< HEAD
 // A pixel of a keyframe turned into a point with derivatives: included after lens_formulas-inl.h,
 // and as that.
-=======
-// The point of a keyframe's pixel, and its derivatives. This file is included once for floats and
-// once for the vectors of each instruction set, and therefore has no include guard. Define before
-// including it: MIVO_FORMULAS, a namespace with a type Number that has + - * /, and with
-// constant(float), squareRoot(), arcTangent() and tangent(); and MIVO_INLINE, the specifier for
-// inlining.
->>>>>>> machine
 
 namespace mivo {
 namespace kernels {
@@ -22,90 +14,7 @@ MIVO_INLINE Point3 cross(const Point3& a, const Point3& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-<<<<<<< HEAD
 /// The ray of a pixel, of depth 1, and the derivative of pixels with respect to its x and y.
-=======
-/// Distorted normalized coordinates and their derivative.
-struct Distorted {
-  Number x, y;
-  Matrix2 derivative;
-};
-
-/// Radial distortion: a point p is multiplied by `scale`, and d scale / dp = `slope` p.
-struct Radial {
-  Number scale, slope;
-};
-
-MIVO_INLINE Radial plumbBob(const WarpParameters& p, Number r2) {
-  const Number k1 = constant(p.k1);
-  const Number k2 = constant(p.k2);
-  const Number k3 = constant(p.k3);
-  const Number two = constant(2.0F);
-  return {constant(1.0F) + r2 * (k1 + r2 * (k2 + r2 * k3)),
-          two * (k1 + r2 * (two * k2 + r2 * constant(3.0F) * k3))};
-}
-
-MIVO_INLINE Radial rational(const WarpParameters& p, Number r2) {
-  const Number k4 = constant(p.k4);
-  const Number k5 = constant(p.k5);
-  const Number k6 = constant(p.k6);
-  const Number two = constant(2.0F);
-  const Radial over = plumbBob(p, r2);
-  const Number under = constant(1.0F) + r2 * (k4 + r2 * (k5 + r2 * k6));
-  const Number under_slope = two * (k4 + r2 * (two * k5 + r2 * constant(3.0F) * k6));
-  const Number scale = over.scale / under;
-  return {scale, (over.slope - scale * under_slope) / under};
-}
-
-/// Equidistant lens: distorted radius over the angle to the optical axis, and its derivative.
-struct Angular {
-  Number scale, slope;
-};
-
-MIVO_INLINE Angular equidistantAngle(const WarpParameters& p, Number angle) {
-  const Number k1 = constant(p.k1);
-  const Number k2 = constant(p.k2);
-  const Number k3 = constant(p.k3);
-  const Number k4 = constant(p.k4);
-  const Number a2 = angle * angle;
-  return {constant(1.0F) + a2 * (k1 + a2 * (k2 + a2 * (k3 + a2 * k4))),
-          constant(1.0F) + a2 * (constant(3.0F) * k1 +
-                                 a2 * (constant(5.0F) * k2 +
-                                       a2 * (constant(7.0F) * k3 + a2 * constant(9.0F) * k4)))};
-}
-
-MIVO_INLINE Radial equidistant(const WarpParameters& p, Number r2) {
-  // Avoids 0 / 0 on the axis; negligible elsewhere.
-  const Number square = r2 + constant(1e-12F);
-  const Number r = squareRoot(square);
-  const Number angle = arcTangent(r);
-  const Angular lens = equidistantAngle(p, angle);
-  const Number scale = angle * lens.scale / r;
-  return {scale, (lens.slope / (constant(1.0F) + square) - scale) / square};
-}
-
-MIVO_INLINE Radial radialOf(const WarpParameters& p, Number r2) {
-  if (p.lens == Lens::kEquidistant) return equidistant(p, r2);
-  return p.lens == Lens::kRational ? rational(p, r2) : plumbBob(p, r2);
-}
-
-MIVO_INLINE Distorted distorted(const WarpParameters& p, Number x, Number y) {
-  const Number p1 = constant(p.p1);
-  const Number p2 = constant(p.p2);
-  const Number two = constant(2.0F);
-  const Number r2 = x * x + y * y;
-  const Radial lens = radialOf(p, r2);
-  const Number radial = lens.scale;
-  const Number slope = lens.slope;
-  const Number mixed = slope * x * y + two * (p1 * x + p2 * y);
-  return {x * radial + two * p1 * x * y + p2 * (r2 + two * x * x),
-          y * radial + p1 * (r2 + two * y * y) + two * p2 * x * y,
-          {radial + slope * x * x + two * p1 * y + constant(6.0F) * p2 * x, mixed, mixed,
-           radial + slope * y * y + constant(6.0F) * p1 * y + two * p2 * x}};
-}
-
-/// The ray of a pixel with z = 1, and the derivative of the pixel with respect to its x and y.
->>>>>>> machine
 struct Ray {
   Number x, y;
   Matrix2 scale;
@@ -217,15 +126,9 @@ MIVO_INLINE Curvature curvatureOnRay(const WarpParameters& p, const Ray& ray, Nu
           through_image.vv + along_x * lens.x.vv + along_y * lens.y.vv};
 }
 
-<<<<<<< HEAD
 /// Upper triangle, row by row, of the second derivative of the intensity with respect to the
 /// increment: through image and lens, through the projection, and the second order of the rotation.
 /// @param curvature  that of curvatureOnRay()
-=======
-/// Second derivative of the intensity with respect to the pose increment, the upper triangle row by
-/// row. It contains the second derivatives of the image, of the projection and of the rotation.
-/// That of the lens is neglected: it is hundreds of times smaller than the image's.
->>>>>>> machine
 MIVO_INLINE void secondDerivative(const Point3& X, const Matrix2& scale, Number gu, Number gv,
                                   const Curvature& curvature, Number (&second)[21]) {
   const Number half = constant(0.5F);

@@ -123,11 +123,6 @@ std::size_t geometricResiduals(const WarpParameters& live, const Motion& T_ref_l
       shift[1] = tau * (w[2] * q[0] - w[0] * q[2] + live.linear[1]);
       shift[2] = tau * (w[0] * q[1] - w[1] * q[0] + live.linear[2]);
     }
-<<<<<<< HEAD
-=======
-    // The ray of the nearest pixel is less than a pixel away from that of the point: distortion is
-    // negligible over that distance.
->>>>>>> machine
     const float inverse = 1.0F / (q[2] + shift[2]);
     const NormalizedPoint ray = {(q[0] + shift[0]) * inverse, (q[1] + shift[1]) * inverse};
     const NormalizedPoint step = beforeLens(live, ray,

@@ -6,53 +6,6 @@ namespace mivo {
 namespace kernels {
 namespace HWY_NAMESPACE {
 
-<<<<<<< HEAD
-=======
-/// A vector with the operators that the shared formulas use.
-struct Number {
-  FloatVector v;
-};
-
-HWY_INLINE Number operator+(Number a, Number b) {
-  return {hn::Add(a.v, b.v)};
-}
-HWY_INLINE Number operator-(Number a, Number b) {
-  return {hn::Sub(a.v, b.v)};
-}
-HWY_INLINE Number operator*(Number a, Number b) {
-  return {hn::Mul(a.v, b.v)};
-}
-HWY_INLINE Number operator/(Number a, Number b) {
-  return {hn::Div(a.v, b.v)};
-}
-HWY_INLINE Number constant(float value) {
-  return {all(value)};
-}
-HWY_INLINE Number squareRoot(Number x) {
-  return {hn::Sqrt(x.v)};
-}
-HWY_INLINE Number arcTangent(Number x) {
-  return {hn::Atan(Floats(), x.v)};
-}
-HWY_INLINE Number tangent(Number x) {
-  return {hn::Div(hn::Sin(Floats(), x.v), hn::Cos(Floats(), x.v))};
-}
-
-}  // namespace HWY_NAMESPACE
-}  // namespace kernels
-}  // namespace mivo
-
-#define MIVO_FORMULAS HWY_NAMESPACE
-#define MIVO_INLINE HWY_INLINE
-#include "core/kernels/point_formulas-inl.h"
-#undef MIVO_FORMULAS
-#undef MIVO_INLINE
-
-namespace mivo {
-namespace kernels {
-namespace HWY_NAMESPACE {
-
->>>>>>> machine
 HWY_INLINE Number loadNumber(const float* values) {
   return {hn::LoadU(Floats(), values)};
 }

@@ -190,7 +190,6 @@ TEST(VectorGeometryTest, AgreesWithTheReference) {
                                         : static_cast<std::uint16_t>(depths.between(500, 65535)));
     meters.push_back(depths.chance(0.2F) ? awkward[i % 5] : depths.between(0.5F, 4.0F));
   }
-<<<<<<< HEAD
   for (const kernels::Lens lens : testing::kLenses) {
     for (const bool has_row_motion : {false, true}) {
       for (const bool is_metric : {false, true}) {
@@ -201,51 +200,6 @@ TEST(VectorGeometryTest, AgreesWithTheReference) {
         for (int r = 0; r < 3; ++r) {
           for (int c = 0; c < 3; ++c) back.rotation[3 * r + c] = live.rotation[3 * c + r];
           back.translation[r] = 0.01F * static_cast<float>(r);
-=======
-  for (const bool has_row_motion : {false, true}) {
-    for (const bool is_metric : {false, true}) {
-      const kernels::DepthView depth{is_metric ? meters.data() : nullptr,
-                                     is_metric ? nullptr : steps.data(), kWidth, 0.0002F};
-      const kernels::WarpParameters live =
-          testing::warpParameters(kernels::Lens::kNone, has_row_motion);
-      kernels::Motion back{};
-      for (int r = 0; r < 3; ++r) {
-        for (int c = 0; c < 3; ++c) back.rotation[3 * r + c] = live.rotation[3 * c + r];
-        back.translation[r] = 0.01F * static_cast<float>(r);
-      }
-      forEachCase([&](const Kernels& kernels, std::size_t n, std::size_t offset) {
-        Numbers numbers(10);
-        const Array x = numbers.array(n, offset, -1.0F, 1.0F);
-        const Array y = numbers.array(n, offset, -0.7F, 0.7F);
-        const Array z = numbers.array(n, offset, 0.8F, 3.0F);
-        const Array nx = numbers.array(n, offset, -0.6F, 0.6F);
-        const Array ny = numbers.array(n, offset, -0.6F, 0.6F);
-        const Array nz = numbers.array(n, offset, -0.9F, -0.5F);
-        const Array weight = numbers.array(n, offset, 20.0F, 400.0F);
-        Array u(n, offset);
-        Array v(n, offset);
-        Array in_view(n, offset);
-        kernels::scalar().warpPoints(live, {x.data(), y.data(), z.data()}, n, u.data(), v.data(),
-                                     in_view.data());
-        const kernels::PlanesView planes{
-            {x.data(), y.data(), z.data()}, {nx.data(), ny.data(), nz.data()}, weight.data()};
-        GeometricOutput expected(in_view, offset);
-        GeometricOutput actual(in_view, offset);
-        const auto run = [&](const Kernels& k, GeometricOutput& out) {
-          float* columns[6];
-          for (std::size_t c = 0; c < 6; ++c) columns[c] = out.columns[c].data();
-          return k.geometricResiduals(live, back, planes, depth, u.data(), v.data(), n,
-                                      out.visible.data(), out.residual.data(), columns);
-        };
-        EXPECT_EQ(run(kernels, actual), run(kernels::scalar(), expected));
-        for (std::size_t i = 0; i < n; ++i) {
-          EXPECT_EQ(actual.visible[i], expected.visible[i]);
-          // Depths up to 13 m and weights up to 400: cancellation.
-          EXPECT_NEAR(actual.residual[i], expected.residual[i], 0.02F);
-          for (std::size_t c = 0; c < 6; ++c) {
-            EXPECT_NEAR(actual.columns[c][i], expected.columns[c][i], 0.02F);
-          }
->>>>>>> machine
         }
         forEachCase([&](const Kernels& kernels, std::size_t n, std::size_t offset) {
           Numbers numbers(10);

@@ -131,16 +131,7 @@ TEST(ReferencePointsTest, DerivativesAreThoseOfTheIntensityUnderAnIncrement) {
       const Vector6 gradient = testing::numericGradient<6>(intensity, Vector6::Zero(), 1e-5);
       const Matrix6 hessian = testing::numericHessian<6>(intensity, Vector6::Zero(), 1e-4);
       EXPECT_LT(testing::relativeError(jacobianOf(points, i), gradient), 2e-4) << i;
-<<<<<<< HEAD
       EXPECT_LT(testing::relativeError(secondDerivativeOf(points, i), hessian), 2e-3) << i;
-=======
-      // The second derivative of the lens is neglected on purpose: for an ordinary lens it is
-      // small. First derivatives, and thus SSD, are exact for every lens.
-      if (is_equidistant) continue;
-      EXPECT_LT(testing::relativeError(secondDerivativeOf(points, i), hessian),
-                has_lens ? 0.1 : 2e-3)
-          << i;
->>>>>>> machine
     }
   }
 }
