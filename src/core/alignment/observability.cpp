@@ -83,7 +83,7 @@ Matrix confirmed(const TermCurvature& term, const Matrix& axes, const Vector6& s
   if (!correlation || !H.allFinite()) return Matrix::Zero(H.rows(), H.cols());
   const double of_chance =
       kDeviationsOfChance / std::sqrt(static_cast<double>(std::max(1, term.agreement.points)));
-  const double least = std::max(term.least_agreement, of_chance);
+  const double least = std::max(term.agreement.has_steps ? term.least_agreement : 0.0, of_chance);
   const auto counted = [=](double rho) {
     return rho < least ? 0.0 : std::sqrt(std::min(1.0, rho));
   };

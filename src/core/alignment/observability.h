@@ -13,7 +13,8 @@ namespace mivo {
 struct TermCurvature {
   Matrix6 hessian = Matrix6::Zero();
   Agreement agreement;
-  /// Directions in which the derivatives of the two frames correlate by less are not confirmed.
+  /// Directions in which the derivatives of the two frames correlate by less are not confirmed, if
+  /// they are of images.
   double least_agreement = 0.0;
 };
 

@@ -19,9 +19,9 @@ constexpr double kModelErrorPixels = 0.05;
 // of oblique edges correlate by up to 0.6 there, those of a few points by up to 0.75.
 constexpr double kLeastAgreement = 0.7;
 constexpr double kLeastAgreementOfFew = 0.8;
-// On the coarsest level asked they correlate by 0.6 in one frame of a hundred, by 0.72 at most. What
-// correlates by more there in all directions is texture, and what the finer levels see of it only
-// noise and blur can hide.
+// On the coarsest level asked they correlate by 0.6 in one frame of a hundred, by 0.72 at most.
+// What correlates by more there in all directions is texture, and what the finer levels see of it
+// only noise and blur can hide.
 constexpr double kAgreementOfTexture = 0.75;
 // The least curvature of the finest images, of the strongest, by noise and the steps of oblique
 // edges: 0.0004 at most. Where the keyframe has more it has texture, and half an agreement confirms

@@ -13,6 +13,8 @@ struct Agreement {
   Matrix6 live = Matrix6::Zero();      ///< sum of L Lᵀ, L by the live frame
   Matrix6 both = Matrix6::Zero();      ///< sum of J Lᵀ, symmetric part
   int points = 0;                      ///< number of compared points
+  /// The steps of oblique edges give both frames the same derivatives along the edges: images only.
+  bool has_steps = false;
 
   void add(const Vector6& by_keyframe, const Vector6& by_live) {
     keyframe += by_keyframe * by_keyframe.transpose();

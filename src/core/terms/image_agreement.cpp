@@ -110,6 +110,7 @@ Agreement imageAgreement(const ReferencePoints& points, const LiveImage& image,
     sample(image, *work, samples, kColumnOf[place], kRowOf[place], work->around[place]);
   }
   Agreement agreement;
+  agreement.has_steps = true;
   for (std::size_t k = 0; k < work->index.size(); ++k) {
     if (!work->isSeen(k)) continue;
     const std::size_t i = work->index[k];
