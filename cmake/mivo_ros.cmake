@@ -26,6 +26,7 @@ find_package(catkin REQUIRED COMPONENTS
   tf2
   tf2_msgs
   tf2_ros
+  topic_tools
   visualization_msgs)
 
 add_message_files(FILES

@@ -26,14 +26,26 @@ double scaleOf(double principal_point, int size) {
   return (2.0 * principal_point + 1.0) / size;
 }
 
+/// A half, a third, twice, ..., where the scale is that but for the half pixel between conventions.
+double plainScale(double scale) {
+  constexpr double kNearlyPlain = 0.02;
+  constexpr double kLargest = 8.0;
+  for (double whole = 1.0; whole <= kLargest; ++whole) {
+    for (const double plain : {whole, 1.0 / whole}) {
+      if (std::abs(scale / plain - 1.0) < kNearlyPlain) return plain;
+    }
+  }
+  return scale;
+}
+
 /// "is it for images of 320 x 240 pixels?" when the principal point would be their center.
 std::string otherSize(const Camera& c) {
   const double x = scaleOf(c.cx, c.width);
   const double y = scaleOf(c.cy, c.height);
   if (!(x > 0.0) || !(y > 0.0) || std::abs(x / y - 1.0) > kSameScale) return {};
   std::ostringstream text;
-  text << ": is the calibration for images of " << std::lround(x * c.width) << " x "
-       << std::lround(y * c.height) << " pixels?";
+  text << ": is the calibration for images of " << std::lround(plainScale(x) * c.width) << " x "
+       << std::lround(plainScale(y) * c.height) << " pixels?";
   return text.str();
 }
 

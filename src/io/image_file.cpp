@@ -17,7 +17,14 @@ namespace {
 using Bytes = std::vector<unsigned char>;
 
 Bytes readBytes(const std::string& path) {
-  if (std::filesystem::is_directory(path)) throw Error("cannot read " + path + ": it is a folder");
+  namespace fs = std::filesystem;
+  std::error_code ignored;  // what cannot be looked at cannot be opened either, and that says why
+  const fs::file_status status = fs::status(path, ignored);
+  if (fs::is_directory(status)) throw Error("cannot read " + path + ": it is a folder");
+  // A pipe would be waited for.
+  if (fs::exists(status) && !fs::is_regular_file(status)) {
+    throw Error("cannot read " + path + ": it is no regular file");
+  }
   errno = 0;
   std::ifstream stream(path, std::ios::binary);
   if (!stream) throw Error("cannot read " + path + ": " + std::strerror(errno));

@@ -76,16 +76,36 @@ std::size_t secondStamp(const TableReader& table) {
   return 2;
 }
 
+bool isFile(const std::string& path) {
+  std::error_code ignored;  // then it is none that could be read
+  return fs::exists(path, ignored);
+}
+
+/// More fields than four are blanks in paths, if there are such files in any line.
+void requireFiles(const std::vector<ListedPair>& pairs, std::size_t fields, const fs::path& file) {
+  const bool has_files = std::any_of(pairs.begin(), pairs.end(), [](const ListedPair& pair) {
+    return isFile(pair.path) && isFile(pair.other_path);
+  });
+  if (fields <= 4 || has_files) return;
+  throw Error(
+      fmt::format("{}: expected 'stamp_rgb path stamp_depth path', found {} fields, of which {} "
+                  "and {} would be the images: no line has such files",
+                  file.string(), fields, pairs.front().path, pairs.front().other_path));
+}
+
 std::vector<ListedPair> readPairs(const fs::path& folder, const fs::path& file) {
   std::vector<ListedPair> pairs;
+  std::size_t fields = 0;  // of the longest line
   TableReader table(file.string());
   while (table.next()) {
     const std::size_t second = secondStamp(table);
     pairs.push_back({table.number(0), (folder / table.textOf(1, second - 1)).string(),
                      table.number(second),
                      (folder / table.textOf(second + 1, table.size() - 1)).string()});
+    fields = std::max(fields, table.size());
   }
   if (pairs.empty()) throw Error(file.string() + " lists no frame");
+  requireFiles(pairs, fields, file);
   return pairs;
 }
 

@@ -17,8 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Of recordings that have numbers instead of times: a frame's stamp is its number over this.
-constexpr double kFrameRate = 30.0;  // Hz
 constexpr double kMicrosecond = 1e-6;
 
 /// What a file's name says: "0000012-000000400345" is image 12 at 0.400345 s, "frame-000012" and
@@ -45,12 +43,12 @@ std::optional<ImageNumber> numberOf(const std::string& stem) {
   return ImageNumber{std::stol(last), std::nullopt};
 }
 
-/// The images of a folder by their numbers: those whose names end with one of the endings.
-std::map<long, ListedImage> numberedImages(const fs::path& folder,
-                                           const std::vector<std::string>& endings,
-                                           bool& have_stamps) {
-  std::map<long, ListedImage> images;
-  if (!fs::is_directory(folder)) return images;
+/// Calls take(number, path) for the files of a folder whose names end with one of the endings and
+/// have a number.
+template <typename Take>
+void findNumbered(const fs::path& folder, const std::vector<std::string>& endings,
+                  const Take& take) {
+  if (!fs::is_directory(folder)) return;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();
     for (const std::string& ending : endings) {
@@ -59,13 +57,22 @@ std::map<long, ListedImage> numberedImages(const fs::path& folder,
         continue;
       }
       const auto number = numberOf(name.substr(0, name.size() - ending.size()));
-      if (!number) continue;
-      have_stamps = have_stamps && number->stamp;
-      images[number->number] = {
-          number->stamp.value_or(static_cast<double>(number->number) / kFrameRate),
-          entry.path().string()};
+      if (number) take(*number, entry.path());
     }
   }
+}
+
+/// The images of a folder by their numbers.
+std::map<long, ListedImage> numberedImages(const fs::path& folder,
+                                           const std::vector<std::string>& endings,
+                                           bool& have_stamps) {
+  std::map<long, ListedImage> images;
+  findNumbered(folder, endings, [&](const ImageNumber& number, const fs::path& path) {
+    have_stamps = have_stamps && number.stamp;
+    images[number.number] = {
+        number.stamp.value_or(static_cast<double>(number.number) / kAssumedFrameRate),
+        path.string()};
+  });
   return images;
 }
 
@@ -101,7 +108,7 @@ bool takeImages(const ImageNames& names, const fs::path& folder, SequenceListing
     const auto depth = depths.find(number);
     if (depth != depths.end()) {
       listing.frames.push_back(
-          {static_cast<double>(number) / kFrameRate, image.path, depth->second.path});
+          {static_cast<double>(number) / kAssumedFrameRate, image.path, depth->second.path});
     }
   }
   return !listing.frames.empty();
@@ -213,6 +220,15 @@ std::optional<SequenceListing> readNumberedFolders(const fs::path& folder) {
 }
 
 }  // namespace
+
+std::map<long, fs::path> numberedFiles(const fs::path& folder,
+                                       const std::vector<std::string>& endings) {
+  std::map<long, fs::path> files;
+  findNumbered(folder, endings, [&](const ImageNumber& number, const fs::path& path) {
+    files[number.number] = path;
+  });
+  return files;
+}
 
 std::optional<SequenceListing> readNumberedImages(const fs::path& folder) {
   for (const auto& read : {readFrameFiles, readScanNet, readSun3d, readNumberedFolders}) {

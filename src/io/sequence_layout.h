@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +20,14 @@ SequenceListing readImageLists(const std::filesystem::path& folder);
 /// Images whose names have numbers: 7-Scenes, 3DMatch, ScanNet, SUN3D, and a color and a depth
 /// folder beside a camera.txt. Nothing when the folder is none of these.
 std::optional<SequenceListing> readNumberedImages(const std::filesystem::path& folder);
+
+/// The numbers in the names of a folder's files that have one of the endings: frame-000012.pose.txt
+/// and 12.txt have 12. A folder that does not exist has none.
+std::map<long, std::filesystem::path> numberedFiles(const std::filesystem::path& folder,
+                                                    const std::vector<std::string>& endings);
+
+// Of recordings that have numbers instead of times: a frame's stamp is its number over this.
+constexpr double kAssumedFrameRate = 30.0;  // Hz
 
 /// An image of a list.
 struct ListedImage {

@@ -58,6 +58,23 @@ SequenceListing list(const std::string& folder) {
   }
 }
 
+/// Says so when the times between images cannot be seconds.
+void doubtInterval(SequenceListing& listing) {
+  constexpr double kLongest = 10.0;  // s, at the median; nothing that far apart can be tracked
+  std::vector<double> gaps;
+  for (std::size_t i = 1; i < listing.frames.size(); ++i) {
+    gaps.push_back(listing.frames[i].stamp - listing.frames[i - 1].stamp);
+  }
+  if (gaps.empty()) return;
+  const auto middle = gaps.begin() + static_cast<std::ptrdiff_t>(gaps.size() / 2);
+  std::nth_element(gaps.begin(), middle, gaps.end());
+  if (*middle < kLongest) return;
+  listing.notices.push_back(
+      fmt::format("the images are {:.4g} s apart at the median: stamps are expected in seconds; "
+                  "are these milliseconds?",
+                  *middle));
+}
+
 /// A part of what is listed.
 void restrict(std::vector<ListedFrame>& frames, const FrameRange& range,
               const std::string& folder) {
@@ -118,8 +135,8 @@ class SequenceReader::Images {
   /// Throws Error when an image cannot be read, or is not what the first ones were.
   Frame read(const ListedFrame& listed) {
     Frame frame = decode(listed);
-    if (frame.image.size() != image_size_) refuseSize(listed.image_path, frame.image);
-    if (frame.depth.size() != depth_size_) refuseSize(listed.depth_path, frame.depth);
+    requireSize(listed.image_path, frame.image, image_size_, "color");
+    requireSize(listed.depth_path, frame.depth, depth_size_, "depth");
     if (fit_ == Fit::kReduceColor) {
       cv::resize(frame.image, frame.image, depth_size_, 0.0, 0.0, cv::INTER_AREA);
     } else if (fit_ == Fit::kEnlargeDepth) {
@@ -149,6 +166,15 @@ class SequenceReader::Images {
     decodeDepth(frame.depth, listing_.depth_coding);
     frame.depth_unit = 1.0 / listing_.camera.depth_units_per_meter;
     return frame;
+  }
+
+  /// All images are as large as the first ones.
+  void requireSize(const std::string& path, const cv::Mat& image, const cv::Size& first,
+                   const char* kind) const {
+    if (image.size() == first) return;
+    if (first == sizeOf(listing_.camera.camera)) refuseSize(path, image);
+    throw Error(fmt::format("{} has {} pixels, but the first {} image {}", path,
+                            sizeText(image.size()), kind, sizeText(first)));
   }
 
   void fit(const Frame& frame, const ListedFrame& listed) {
@@ -217,6 +243,7 @@ SequenceReader::SequenceReader(const std::string& folder, const FrameRange& rang
   if (!fs::exists(folder, ignored)) throw Error("there is no folder " + folder);
   if (!fs::is_directory(folder, ignored)) throw Error(folder + " is no folder");
   SequenceListing listing = list(folder);
+  doubtInterval(listing);
   restrict(listing.frames, range, folder);
   images_ = std::make_unique<Images>(std::move(listing));
   camera_ = images_->listing().camera;

@@ -36,7 +36,9 @@ std::optional<double> parse(const std::string& text) {
 
 TableReader::TableReader(const std::string& path) : path_(path) {
   // A folder opens like a file and only fails when it is read.
-  if (std::filesystem::is_directory(path)) throw Error("cannot read " + path + ": it is a folder");
+  std::error_code ignored;  // what cannot be looked at cannot be opened either, and that says why
+  if (std::filesystem::is_directory(path, ignored))
+    throw Error("cannot read " + path + ": it is a folder");
   errno = 0;
   stream_.open(path);
   if (!stream_) throw Error("cannot read " + path + ": " + std::strerror(errno));
@@ -56,7 +58,12 @@ bool TableReader::readLine() {
   }
   if (stream_.bad()) throw Error("cannot read " + path_ + " after line " + std::to_string(line_));
   if (is_line) ++line_;
-  if (line_ == 1 && record_.rfind(kByteOrderMark, 0) == 0) record_.erase(0, kByteOrderMark.size());
+  if (line_ == 1) {
+    if (record_.rfind("\xFF\xFE", 0) == 0 || record_.rfind("\xFE\xFF", 0) == 0) {
+      throw Error(path_ + " is encoded as UTF-16: save it as UTF-8");
+    }
+    if (record_.rfind(kByteOrderMark, 0) == 0) record_.erase(0, kByteOrderMark.size());
+  }
   return is_line;
 }
 

@@ -82,12 +82,11 @@ StampedPose kittiPose(const TableReader& table, std::size_t number) {
       pose.pose.translation()[row] = table.number(i);
     }
   }
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(rotation, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const Eigen::Matrix3d nearest = svd.matrixU() * svd.matrixV().transpose();
-  if (!((rotation - nearest).norm() <= kNormTolerance) || nearest.determinant() < 0.0) {
+  const auto nearest = nearestRotation(rotation);
+  if (!nearest) {
     table.refuse("the 12 numbers are no pose: columns 1 to 3, 5 to 7 and 9 to 11 are no rotation");
   }
-  pose.pose.linear() = nearest;
+  pose.pose.linear() = *nearest;
   return pose;
 }
 
@@ -199,6 +198,15 @@ class TrajectoryParser {
 };
 
 }  // namespace
+
+std::optional<Eigen::Matrix3d> nearestRotation(const Eigen::Matrix3d& matrix) {
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const Eigen::Matrix3d nearest = svd.matrixU() * svd.matrixV().transpose();
+  if (!((matrix - nearest).norm() <= kNormTolerance) || nearest.determinant() < 0.0) {
+    return std::nullopt;
+  }
+  return nearest;
+}
 
 TrajectoryFile readTrajectoryFile(const std::string& path) {
   return TrajectoryParser(path).read();

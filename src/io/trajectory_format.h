@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
+#include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,6 +16,9 @@ struct TrajectoryFile {
   std::vector<std::string> notices;  ///< what was recognized that is not plain
   bool is_order_assumed = false;     ///< nothing in the file says that qw is the last number
 };
+
+/// The rotation nearest to a matrix that is one but for rounding; nothing when it is none.
+std::optional<Eigen::Matrix3d> nearestRotation(const Eigen::Matrix3d& matrix);
 
 /// Reads any of
 ///   TUM          `stamp tx ty tz qx qy qz qw`

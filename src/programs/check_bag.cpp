@@ -11,6 +11,7 @@
 #include "programs/python_plot.h"
 #include "ros/bag_check.h"
 #include "ros/recording.h"
+#include "ros/whole_copy.h"
 
 namespace {
 
@@ -23,7 +24,6 @@ void printTopics(const std::vector<std::string>& bags, const mivo::RgbdTopics& w
             << "depth: " << topics.depth << "\n"
             << "camera_info: " << topics.camera_info << "\n"
             << "depth_info: " << topics.depth_info << "\n";
-  if (!recording.damage().empty()) throw mivo::Error(recording.damage());
 }
 
 void run(int argc, char** argv) {
@@ -34,6 +34,7 @@ void run(int argc, char** argv) {
   std::string plot;
   bool force = false;
   bool topics_only = false;
+  std::string copy;
   mivo::CommandLine line("check_bag",
                          "Checks the quality of a recording: rates, gaps, order and clocks of the "
                          "stamps, calibration, "
@@ -45,7 +46,9 @@ void run(int argc, char** argv) {
                  "plot as .pdf, .svg or .png (needs python3-matplotlib)")(
       "csv", po::value(&csv)->value_name("FILE.csv"), "write one row per frame")(
       "force", po::bool_switch(&force), "replace existing files")(
-      "topics", po::bool_switch(&topics_only), "only print the topics and their layout");
+      "topics", po::bool_switch(&topics_only), "only print the topics and their layout")(
+      "copy-damaged", po::value(&copy)->value_name("FILE.bag"),
+      "only print what is damaged, and copy what is whole if anything is; for rosbag play");
   if (!line.parse(argc, argv)) return;
   if (topics_only) {
     printTopics(bags, topics);
@@ -54,6 +57,12 @@ void run(int argc, char** argv) {
   const mivo::Overwrite overwrite = force ? mivo::Overwrite::kYes : mivo::Overwrite::kNo;
   std::vector<mivo::NamedFile> inputs;
   for (const std::string& bag : bags) inputs.push_back({"BAG", bag});
+  if (!copy.empty()) {
+    mivo::requireOutputs({{"--copy-damaged", copy}}, inputs, overwrite);
+    const std::string damage = mivo::copyWhenDamaged(bags, copy);
+    if (!damage.empty()) std::cout << damage << "\n";
+    return;
+  }
   if (!plot.empty()) mivo::requirePlotEnding("--plot", plot);
   mivo::requireOutputs({{"--plot", plot}, {"--csv", csv}}, inputs, overwrite);
   const mivo::BagReport report = mivo::checkBag(bags, topics);

@@ -36,7 +36,10 @@ void run(int argc, char** argv) {
       "evaluate_trajectory",
       "Compares an estimated trajectory with ground truth: relative pose error and "
       "absolute trajectory error.");
-  line.argument("TRUTH", &truth_path, "ground truth: TUM, EuRoC, KITTI or ROS 2 CSV");
+  line.argument(
+      "TRUTH", &truth_path,
+      "ground truth: TUM, EuRoC, KITTI or ROS 2 CSV; or the sequence folder that holds it (TUM, "
+      "7-Scenes, ScanNet)");
   line.argument("ESTIMATE", &estimate_path, "estimated trajectory, in any of these formats");
   line.options()("delta", po::value(&options.delta)->default_value(options.delta, "1"),
                  "interval of the relative pose error, seconds")(

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "programs/trajectory_pair.h"
 
+#include <filesystem>
 #include <limits>
 #include <utility>
 
 #include "evaluation/relative_pose_error.h"
 #include "evaluation/statistics.h"
+#include "io/pose_folder.h"
 #include "io/trajectory_format.h"
 #include "mivo/core/error.h"
 
@@ -55,7 +57,10 @@ double disagreement(const Trajectory& truth, const Trajectory& estimate) {
 }  // namespace
 
 TrajectoryPair readTrajectoryPair(const std::string& truth_path, const std::string& estimate_path) {
-  const TrajectoryFile truth_file = readTrajectoryFile(truth_path);
+  std::error_code ignored;  // what cannot be looked at fails, with its reason, when it is read
+  const TrajectoryFile truth_file = std::filesystem::is_directory(truth_path, ignored)
+                                        ? readPoseFolder(truth_path)
+                                        : readTrajectoryFile(truth_path);
   const TrajectoryFile estimate_file = readTrajectoryFile(estimate_path);
   TrajectoryPair best{truth_file.poses, estimate_file.poses, {}};
   double best_disagreement = disagreement(best.truth, best.estimate);

@@ -15,7 +15,8 @@ struct TrajectoryPair {
   std::vector<std::string> notices;  ///< how the files were read, where that is not plain
 };
 
-/// Reads both files, see readTrajectoryFile(). A file that does not say how its quaternions are
+/// Reads both files, see readTrajectoryFile(); the truth may be the sequence folder that holds it,
+/// see readPoseFolder(). A file that does not say how its quaternions are
 /// ordered is read with qw last, unless its motion fits the other file's far better with qw first:
 /// which of the two makes a smooth path cannot be seen in one file alone, for both turn by the same
 /// angles. Throws Error.

@@ -68,6 +68,17 @@ bool isWanted(const std::vector<std::string>& topics, const std::string& topic) 
 
 }  // namespace
 
+boost::shared_ptr<const topic_tools::ShapeShifter> RecordedMessage::readAny() const {
+  if (indexed_) return indexed_->instantiate<topic_tools::ShapeShifter>();
+  const auto message = boost::make_shared<topic_tools::ShapeShifter>();
+  const SalvagedBag::Connection& connection = *salvaged_->connection;
+  message->morph(connection.md5sum, connection.type, connection.definition, "0");
+  ros::serialization::IStream stream(const_cast<std::uint8_t*>(bag_->data(*salvaged_)),
+                                     static_cast<std::uint32_t>(salvaged_->size));
+  message->read(stream);
+  return message;
+}
+
 Recording::Recording(const std::vector<std::string>& paths, Reader reader) {
   for (const std::string& path : paths) {
     requireBag(path);

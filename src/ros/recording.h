@@ -5,6 +5,7 @@
 #include <ros/serialization.h>
 #include <rosbag/bag.h>
 #include <rosbag/message_instance.h>
+#include <topic_tools/shape_shifter.h>
 
 #include <boost/make_shared.hpp>
 #include <boost/shared_ptr.hpp>
@@ -53,6 +54,9 @@ class RecordedMessage {
     }
     return message;
   }
+
+  /// The same without a look at its type: to be written again.
+  boost::shared_ptr<const topic_tools::ShapeShifter> readAny() const;
 
  private:
   template <typename Message>

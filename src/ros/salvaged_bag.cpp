@@ -216,7 +216,8 @@ void SalvagedBag::addConnection(const Fields& header, const std::uint8_t* data, 
   const Fields fields = fieldsOf(data, size);
   connections_.emplace(
       numberOf(header, "conn"),
-      Connection{valueOf(header, "topic"), valueOf(fields, "type"), valueOf(fields, "md5sum")});
+      Connection{valueOf(header, "topic"), valueOf(fields, "type"), valueOf(fields, "md5sum"),
+                 valueOf(fields, "message_definition")});
 }
 
 /// Fills bytes_.

@@ -21,6 +21,7 @@ class SalvagedBag {
     std::string topic;
     std::string type;
     std::string md5sum;
+    std::string definition;  ///< of the message, as text
   };
 
   struct Message {

@@ -17,6 +17,8 @@ constexpr std::size_t kEnoughReadings = 200;
 // Two depths of one surface differ by far less than this share of them from pixel to pixel, values
 // whose low bits stand for kilometers by more.
 constexpr double kJump = 0.1;
+// jumps > this share of the neighbors: surfaces have them at edges only.
+constexpr double kManyJumps = 0.2;
 // step / median > this: no sensor, at a distance at which it works, is so coarse; a Kinect at 8 m
 // comes to 0.02, 8 bits over 8 m to 0.02 at 1.5 m.
 constexpr double kCoarse = 0.03;
@@ -91,7 +93,7 @@ DepthStorage examineDepthStorage(const Frame& frame) {
     return (pair.left | pair.right) % 8 == 0;
   });
   const double jumps = partOfJumps(pairs, [](std::uint16_t value) { return value; });
-  storage.is_rotated_right = jumps > 0.5 && partOfJumps(pairs, rotatedLeft) < 0.5 * jumps;
+  storage.is_rotated_right = jumps > kManyJumps && partOfJumps(pairs, rotatedLeft) < 0.5 * jumps;
   storage.coarse_step = storage.is_rotated_right ? 0.0 : coarseStep(pairs) * frame.depth_unit;
   return storage;
 }

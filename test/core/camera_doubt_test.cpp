@@ -84,6 +84,8 @@ TEST(CameraDoubtTest, CalibrationOfAnotherSizeIsDoubted) {
             "the principal point (159.5, 119.5) is far from the center of images of 640 x 480 "
             "pixels: is the calibration for images of 320 x 240 pixels?");
   EXPECT_NE(doubtOf(withCenter(479.5, 359.5)).find("for images of 960 x 720"), std::string::npos);
+  // Halved without regard to where the centers of pixels are.
+  EXPECT_NE(doubtOf(withCenter(159.75, 119.75)).find("for images of 320 x 240"), std::string::npos);
   EXPECT_EQ(
       doubtOf(withCenter(100.0, 239.5)),
       "the principal point (100, 239.5) is far from the center of images of 640 x 480 pixels");

@@ -328,7 +328,7 @@ def fault_of(r, row, base_error):
 IN_THE_NODE = ("`compressedDepth`, RVL", "`yuyv`, `yuv422_yuy2`", "half the size", "of a camera beside color, its",
                "zeros until", "one message at the end", "a change by rounding", "a true change", "zero at first",
                "doubled", "of color doubled", "alternating by 3 s", "a single one far ahead", "set back in the middle",
-               "of 2105", "split: several bags")
+               "of 2105", "split: several bags", "cut off", "a damaged chunk")
 
 
 def trajectories(folder, stem):

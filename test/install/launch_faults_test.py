@@ -154,11 +154,11 @@ class LaunchFaultsTest(Case):
         self.expect_refusal("'bag' is '%s', but there is no such file" % self.path("no.bag"),
                             "bag.launch", "bag:=any.bag no.bag")
         with open(self.bag, "rb") as file:
-            half = self.path("half.bag")
-            with open(half, "wb") as cut:
-                cut.write(file.read()[:-300])
-        self.expect_refusal("'bag' is '%s': %s: its index is damaged or missing" % (half, half),
-                            "bag.launch", "bag:=" + half)
+            begin = self.path("begin.bag")
+            with open(begin, "wb") as cut:
+                cut.write(file.read()[:20])
+        self.expect_refusal("'bag' is '%s': %s cannot be read as a bag: its index is damaged or missing" % (
+            begin, begin), "bag.launch", "bag:=" + begin)
 
     def test_frames_must_differ(self):
         self.expect_refusal("'base_frame' is 'odom', which is also the frame of 'odom_frame'", "bag.launch",

@@ -2,10 +2,12 @@
 #include "io/image_file.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <boost/crc.hpp>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <opencv2/core.hpp>
 #include <opencv2/imgcodecs.hpp>
 #include <random>
@@ -42,6 +44,17 @@ TEST(ImageFileTest, ImagesComeBackExactly) {
     writePng(folder / "image.png", image, Overwrite::kYes);
     EXPECT_TRUE(same(readImage(folder / "image.png"), image)) << type;
   }
+}
+
+TEST(ImageFileTest, WhatIsNoFileIsNamedAndNotWaitedFor) {
+  const TemporaryFolder folder;
+  const std::string pipe = folder / "pipe.png";
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_EQ(errorText([&] { readImage(pipe); }), "cannot read " + pipe + ": it is no regular file");
+  const std::string circle = folder / "circle.png";
+  std::filesystem::create_symlink("circle.png", circle);
+  EXPECT_EQ(errorText([&] { readImage(circle); }),
+            "cannot read " + circle + ": Too many levels of symbolic links");
 }
 
 TEST(ImageFileTest, EveryTruncationIsNoticed) {

@@ -152,6 +152,29 @@ TEST_F(SequenceReaderTest, ListsWithoutTimesAreErrors) {
   EXPECT_EQ(openError().find((folder_ / "associations.txt") + ": all 2 stamps are 7.000000"), 0U);
 }
 
+TEST_F(SequenceReaderTest, LinesWithAColumnTooManyAreErrors) {
+  for (const char* line : {"0 0 rgb/0.png 0 depth/0.png\n", "0,00 rgb/0.png 0,00 depth/0.png\n",
+                           "0 rgb/0.png 0 depth/0.png 7\n"}) {
+    folder_.write("associations.txt", line);
+    EXPECT_EQ(openError().find((folder_ / "associations.txt") +
+                               ": expected 'stamp_rgb path stamp_depth path', found "),
+              0U)
+        << openError();
+  }
+  folder_.write("associations.txt", std::string("\xFF\xFE\x31\0 \0", 6));
+  EXPECT_EQ(openError(),
+            (folder_ / "associations.txt") + " is encoded as UTF-16: save it as UTF-8");
+}
+
+TEST_F(SequenceReaderTest, StampsInMillisecondsAreDoubted) {
+  folder_.write("associations.txt",
+                "100 rgb/0.png 100 depth/0.png\n133 rgb/1.png 133 depth/1.png\n"
+                "166 rgb/2.png 166 depth/2.png\n");
+  EXPECT_EQ(SequenceReader(folder_.path()).notice(),
+            "the images are 33 s apart at the median: stamps are expected in seconds; are these "
+            "milliseconds?");
+}
+
 TEST_F(SequenceReaderTest, RangeIsAPart) {
   EXPECT_EQ(readAll({1, 1}), (Events{"F1"}));
   EXPECT_EQ(readAll({1, 100}), (Events{"F1", "F2"}));

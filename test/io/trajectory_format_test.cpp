@@ -3,10 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "io/pose_folder.h"
 #include "mivo/io/trajectory_io.h"
 #include "support/error_text.h"
 #include "support/temporary_folder.h"
@@ -144,6 +146,64 @@ TEST_F(TrajectoryFormatTest, OthersAreRefusedWithFileAndLine) {
   expectRefusal("t,x,y,z,qw,qx,qy,qz\n0,1,2,3,1,0,0\n", ":2: expected 8 numbers, found 7");
   expectRefusal("t,x,y,z,qw,qx,qy,qz\n", " holds no pose");
   expectRefusal("0 0 0 0 0 0 0 0.5\n", ":1: the quaternion has length 0.5");
+}
+
+// The same pose as a matrix, as data sets have it.
+class PoseFolderTest : public ::testing::Test {
+ protected:
+  static std::string matrixOf(const Eigen::Isometry3d& pose) {
+    std::ostringstream text;
+    text << pose.matrix().format(Eigen::IOFormat(9)) << "\n";
+    return text.str();
+  }
+
+  static Eigen::Isometry3d pose() {
+    Eigen::Isometry3d pose(kRotation);
+    pose.translation() = kPosition;
+    return pose;
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(PoseFolderTest, SevenScenesAndScanNet) {
+  for (const bool is_scan_net : {false, true}) {
+    const TemporaryFolder folder;
+    const auto name = [&](int i) {
+      return is_scan_net ? "pose/" + std::to_string(i) + ".txt"
+                         : "frame-00000" + std::to_string(i) + ".pose.txt";
+    };
+    folder.write(name(0), matrixOf(Eigen::Isometry3d::Identity()));
+    folder.write(name(3), matrixOf(pose()));
+    folder.write(name(6),
+                 "-inf -inf -inf -inf\n-inf -inf -inf -inf\n-inf -inf -inf -inf\n0 0 0 1\n");
+    const TrajectoryFile file = readPoseFolder(folder.path());
+    ASSERT_EQ(file.poses.size(), 2U);
+    EXPECT_EQ(file.poses[0].stamp, 0.0);
+    EXPECT_DOUBLE_EQ(file.poses[1].stamp, 0.1);
+    EXPECT_LT((file.poses[1].pose.matrix() - pose().matrix()).norm(), 1e-7);
+    ASSERT_EQ(file.notices.size(), 1U);
+    EXPECT_NE(file.notices[0].find("30 Hz are assumed"), std::string::npos);
+  }
+}
+
+TEST_F(PoseFolderTest, TumsTruthIsTakenFromItsFile) {
+  folder_.write("groundtruth.txt", "1600000001.5 1 -2 3.5 " + kXyzw + "\n");
+  const TrajectoryFile file = readPoseFolder(folder_.path());
+  ASSERT_EQ(file.poses.size(), 1U);
+  EXPECT_EQ(file.poses[0].stamp, kStamp);
+}
+
+TEST_F(PoseFolderTest, OthersAreRefused) {
+  EXPECT_NE(errorText([&] { readPoseFolder(folder_.path()); }).find(" holds no true path"),
+            std::string::npos);
+  for (const auto& [text, what] :
+       {std::pair{"1 2 3", ": expected 16 numbers of a pose's matrix, found 3"},
+        {"1 0 0 0 0 1 0 0 0 0 2 0 0 0 0 1", ": the matrix has no rotation in its first columns"},
+        {"1 0 0 x 0 1 0 0 0 0 1 0 0 0 0 1", ": 'x' is no number"}}) {
+    const std::string path = folder_.write("frame-000000.pose.txt", text);
+    EXPECT_EQ(errorText([&] { readPoseFolder(folder_.path()); }), path + what);
+  }
 }
 
 }  // namespace

@@ -2,12 +2,14 @@
 // Recordings that are split, cut off, damaged, or of another kind.
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 
 #include "ros/bag_source.h"
 #include "ros/expect_error.h"
 #include "ros/recording.h"
 #include "ros/small_bag.h"
+#include "ros/whole_copy.h"
 #include "support/temporary_folder.h"
 
 namespace mivo {
@@ -103,6 +105,27 @@ TEST_F(RecordingTest, AHoleInAnUncompressedBagCostsItsFramesOnly) {
   EXPECT_GE(frames.size(), kFrames - 6U);
   EXPECT_LT(frames.size(), static_cast<std::size_t>(kFrames));
   EXPECT_EQ(frames.back(), SmallBag::stamp(kFrames - 1));
+}
+
+TEST_F(RecordingTest, TheCopyForPlayingHasTheSameFrames) {
+  std::string bytes = contentOf(write("whole.bag", rosbag::compression::LZ4));
+  const std::string half = folder_.write("half.bag", bytes.substr(0, bytes.size() / 2));
+  for (std::size_t i = 0; i < 8; ++i) bytes[bytes.size() / 2 + i] ^= '\xff';
+  const std::string damaged = folder_.write("damaged.bag", bytes);
+  for (const std::string& path : {half, damaged}) {
+    const std::string copy = folder_ / "copy.bag";
+    BagSource source(path, {});
+    EXPECT_EQ(copyWhenDamaged({path}, copy), source.notice());
+    BagSource copied(copy, {});
+    EXPECT_EQ(copied.notice(), "");
+    EXPECT_EQ(framesOf(copied), framesOf(source));
+  }
+}
+
+TEST_F(RecordingTest, ASoundBagIsNotCopied) {
+  const std::string path = write("whole.bag", rosbag::compression::BZ2);
+  EXPECT_EQ(copyWhenDamaged({path}, folder_ / "copy.bag"), "");
+  EXPECT_FALSE(std::filesystem::exists(folder_ / "copy.bag"));
 }
 
 TEST_F(RecordingTest, NoBytesAreReadAsABag) {
