@@ -17,6 +17,21 @@ if(MIVO_WARNINGS_AS_ERRORS)
   add_compile_options(-Werror)
 endif()
 
+# For tests (scripts/test --sanitize): a build that ends at the first access out of bounds, undefined
+# operation or leak, with the assertions of the C++ library, Eigen and OpenCV in force. Programs of
+# test/fuzz need clang's coverage besides.
+option(MIVO_SANITIZE "Build with AddressSanitizer and UndefinedBehaviorSanitizer, and with assertions" OFF)
+if(MIVO_SANITIZE)
+  set(MIVO_SANITIZERS address,undefined)
+  if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+    string(APPEND MIVO_SANITIZERS ",fuzzer-no-link")
+  endif()
+  add_compile_options(-fsanitize=${MIVO_SANITIZERS} -fno-sanitize-recover=undefined
+    -fno-omit-frame-pointer -O1 -g1 -UNDEBUG)
+  add_compile_definitions(_GLIBCXX_ASSERTIONS)
+  add_link_options(-fsanitize=${MIVO_SANITIZERS})
+endif()
+
 # mivo_library(NAME sources...): one library of one folder.
 function(mivo_library name)
   add_library(${name} ${ARGN})

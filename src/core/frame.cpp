@@ -9,6 +9,9 @@
 namespace mivo {
 namespace {
 
+// s, 30000 years: squares of times between frames stay far from overflow.
+constexpr double kMaxStamp = 1e12;
+
 std::string sizeText(int width, int height) {
   return std::to_string(width) + " x " + std::to_string(height);
 }
@@ -50,6 +53,7 @@ cv::Mat toGray(const cv::Mat& image, ChannelOrder order, int bits) {
 std::string findFault(const Frame& frame, const Camera& camera) {
   const std::string expected = sizeText(camera.width, camera.height);
   if (!std::isfinite(frame.stamp)) return "the stamp is not finite";
+  if (std::abs(frame.stamp) > kMaxStamp) return "the stamp is no time in seconds";
   if (frame.image.type() != CV_8UC1 || frame.image.empty()) {
     return "the image is not 8-bit gray";
   }

@@ -43,7 +43,7 @@ Kind kindOf(const std::string& name) {
   }
   if (contains(name, "nsec") || contains(name, "nanosec")) return Kind::kNanoseconds;
   if (contains(name, "time") || contains(name, "stamp") || name == "t") return Kind::kStamp;
-  const bool is_axis = contains("xyz", std::string(1, name.back()).c_str());
+  const bool is_axis = name.back() >= 'x' && name.back() <= 'z';
   if (contains(name, "orientation") || contains(name, "quat") || name.front() == 'q') {
     return is_axis || name.back() == 'w' ? Kind::kQuaternion : Kind::kOther;
   }

@@ -168,6 +168,19 @@ TEST_F(FindFaultTest, DepthMustBeThereAndOfAKnownType) {
   expectFault("16-bit integer");
 }
 
+TEST_F(FindFaultTest, TheStampMustBeATime) {
+  for (const double stamp : {0.0, -1e12, 1e12}) {
+    frame_.stamp = stamp;
+    EXPECT_EQ(findFault(frame_, camera_), "");
+  }
+  for (const double stamp : {-1.1e12, 1.1e12, 1e300}) {
+    frame_.stamp = stamp;
+    expectFault("no time in seconds");
+  }
+  frame_.stamp = std::numeric_limits<double>::quiet_NaN();
+  expectFault("the stamp is not finite");
+}
+
 TEST_F(FindFaultTest, TheUnitOfIntegerDepthMustMakeSense) {
   for (const double unit : {0.0, -0.001, 2.0, std::numeric_limits<double>::quiet_NaN()}) {
     frame_.depth_unit = unit;

@@ -92,6 +92,11 @@ TEST_F(TrajectoryFormatTest, Euroc) {
       "qw before qx, as its heading says");
 }
 
+TEST_F(TrajectoryFormatTest, ANameThatEndsWithAZeroIsNoAxis) {
+  expectRefusal(std::string("# t tx ty translation\0 qx qy qz qw\n1 2 3 4 0 0 0 2\n", 51),
+                "the quaternion has length 2");
+}
+
 TEST_F(TrajectoryFormatTest, HeadingsNameTheColumns) {
   const std::string numbers = "1600000001.5 1 -2 3.5 " + kWxyz;
   for (const char* heading : {"timestamp,p_x,p_y,p_z,q_w,q_x,q_y,q_z", "#t,x,y,z,qw,qx,qy,qz",
