@@ -2,6 +2,7 @@
 #include "frame_faults.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <opencv2/core.hpp>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // The text files of sequence folders: the first byte chooses which of them hold the rest.
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <filesystem>

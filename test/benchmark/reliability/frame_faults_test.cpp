@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <opencv2/core.hpp>
+#include <vector>
 
 #include "support/error_text.h"
 

@@ -12,8 +12,8 @@
 namespace mivo {
 namespace {
 
-/// A cost in closed form, f(|t - goal|) + g(angle about z), that records its evaluations. Increments
-/// warp the keyframe: T retract(v, w)^-1 changes the translation by -v if w is zero.
+/// A cost in closed form, f(|t - goal|) + g(angle about z), that records its evaluations.
+/// Increments warp the keyframe: T retract(v, w)^-1 changes the translation by -v if w is zero.
 class ToyTerm : public CostTerm {
  public:
   double evaluate(const Eigen::Isometry3d& T_live_ref) override {
