@@ -135,8 +135,11 @@ void FrameInput::takeCameraInfo(const sensor_msgs::CameraInfoConstPtr& message) 
 }
 
 void FrameInput::takeDepthInfo(const sensor_msgs::CameraInfoConstPtr& message) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  depth_calibrations_.add(toSeconds(message->header.stamp), message);
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    depth_calibrations_.add(toSeconds(message->header.stamp), message);
+  }
+  giveOut(false);
 }
 
 void FrameInput::deliver(ImagePair pair) {
@@ -147,7 +150,8 @@ void FrameInput::deliver(ImagePair pair) {
 /// Pairs whose calibration is there, in their order; all of them `at_once` whatever may come.
 void FrameInput::giveOut(bool at_once) {
   while (!waiting_.empty() &&
-         (at_once || !expectsCalibration(waiting_.front().color->header.stamp))) {
+         (at_once || !(expectsCalibration(waiting_.front().color->header.stamp) ||
+                       expectsDepthCalibration(waiting_.front())))) {
     ImagePair pair = std::move(waiting_.front());
     waiting_.pop_front();
     last_given_ = pair.color->header.stamp;
@@ -162,6 +166,17 @@ bool FrameInput::expectsCalibration(const ros::Time& stamp) const {
   const ros::Time& last = camera_info_count_.last_stamp;
   return camera_info_count_.messages > 1 && !last_given_.isZero() && last >= last_given_ &&
          last < stamp;
+}
+
+/// Whether depth has to be registered, and the first calibration for that is on its way.
+bool FrameInput::expectsDepthCalibration(const ImagePair& pair) const {
+  if (parameters_.depth_registered == "yes" || depth_info_subscriber_.getNumPublishers() == 0) {
+    return false;
+  }
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return depth_calibrations_.empty() &&
+         (parameters_.depth_registered == "no" ||
+          isUnregistered(pair.color->header.frame_id, pair.depth->header.frame_id, depth_.topic()));
 }
 
 void FrameInput::complete(ImagePair pair) {

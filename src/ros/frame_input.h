@@ -61,6 +61,7 @@ class FrameInput {
   void deliver(ImagePair pair);
   void giveOut(bool at_once);
   bool expectsCalibration(const ros::Time& stamp) const;
+  bool expectsDepthCalibration(const ImagePair& pair) const;
   void complete(ImagePair pair);
   void keepEarly(ImagePair pair);
   void countSingle(ImageStream stream);

@@ -141,7 +141,7 @@ def rows(r):
     info("a last row of K that is not 0 0 1", set_k(262.5, 0, 159.5, 0, 262.5, 119.5, 0, 1e-310, 0), 0,
          "K has a last row that is not 0 0 1")
     info("K of half the size", set_k(131.25, 0, 79.75, 0, 131.25, 59.75, 0, 0, 1), None,
-         "is the calibration for images of 161 x 121 pixels?", "a warning")
+         "is the calibration for images of 160 x 120 pixels?", "a warning")
     info("width, height and K of half the size",
          set_all(width=160, height=120, K=[131.25, 0, 79.75, 0, 131.25, 59.75, 0, 0, 1]), 0,
          "the image has 320 x 240 pixels, but the camera 160 x 120")
