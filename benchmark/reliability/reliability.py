@@ -41,7 +41,10 @@ def arguments():
     parser.add_argument("--quick", action="store_true", help="few and small frames, one run each")
     parser.add_argument("--runs", type=int, metavar="N", help="for each fault (default 100)")
     parser.add_argument("--document", action="store_true", help="write doc/reliability.md, too")
-    return parser.parse_args()
+    options = parser.parse_args()
+    if options.runs is not None and options.runs < 1:
+        parser.error("--runs must be 1 at least")
+    return options
 
 
 def film(programs, folder, quick):
