@@ -30,29 +30,29 @@ struct Radial {
   Number scale, slope, curvature;
 };
 
-MIVO_INLINE Radial plumbBob(const WarpParameters& p, Number r2) {
-  const Number k1 = constant(p.k1);
-  const Number k2 = constant(p.k2);
-  const Number k3 = constant(p.k3);
+/// 1 + a r^2 + b r^4 + c r^6.
+MIVO_INLINE Radial polynomial(float a, float b, float c, Number r2) {
+  const Number k1 = constant(a);
+  const Number k2 = constant(b);
+  const Number k3 = constant(c);
   const Number two = constant(2.0F);
   return {constant(1.0F) + r2 * (k1 + r2 * (k2 + r2 * k3)),
           two * (k1 + r2 * (two * k2 + r2 * constant(3.0F) * k3)),
           constant(8.0F) * (k2 + r2 * constant(3.0F) * k3)};
 }
 
+MIVO_INLINE Radial plumbBob(const WarpParameters& p, Number r2) {
+  return polynomial(p.k1, p.k2, p.k3, r2);
+}
+
 MIVO_INLINE Radial rational(const WarpParameters& p, Number r2) {
-  const Number k4 = constant(p.k4);
-  const Number k5 = constant(p.k5);
-  const Number k6 = constant(p.k6);
-  const Number two = constant(2.0F);
   const Radial over = plumbBob(p, r2);
-  const Number under = constant(1.0F) + r2 * (k4 + r2 * (k5 + r2 * k6));
-  const Number under_slope = two * (k4 + r2 * (two * k5 + r2 * constant(3.0F) * k6));
-  const Number under_curvature = constant(8.0F) * (k5 + r2 * constant(3.0F) * k6);
-  const Number scale = over.scale / under;
-  const Number slope = (over.slope - scale * under_slope) / under;
+  const Radial under = polynomial(p.k4, p.k5, p.k6, r2);
+  const Number scale = over.scale / under.scale;
+  const Number slope = (over.slope - scale * under.slope) / under.scale;
   return {scale, slope,
-          (over.curvature - two * slope * under_slope - scale * under_curvature) / under};
+          (over.curvature - constant(2.0F) * slope * under.slope - scale * under.curvature) /
+              under.scale};
 }
 
 /// Of an angle to the optical axis: distorted radius over the angle, the derivative of the
