@@ -35,21 +35,20 @@ void MotionModel::add(const MeasuredPose& pose, const FrameClock& clock,
   last_ = pose;
   const bool is_first = !has_pose_;
   has_pose_ = true;
+  const double seconds = periods(clock, parameters) * clock.period(parameters);
+  const bool is_measured = has_velocity_ && seconds > 0.0;
+  if (is_measured) {
+    filter_.add({motion_, covariance_before + pose.alignment_covariance, periods(clock, parameters),
+                 seconds, pose.has_open_directions},
+                parameters);
+  }
   if (pose.has_open_directions && !is_first) return;
   seen_ = pose;
-  const Matrix6 unknown = squares(parameters.expected_speed, parameters.expected_turn_rate);
-  const double seconds = periods(clock, parameters) * clock.period(parameters);
-  if (!has_velocity_ || !(seconds > 0.0)) {
-    seen_speed_ = seen_turn_rate_ = 0.0;
-    velocity_covariance_ = unknown;
-    return;
-  }
-  seen_speed_ = motion_.head<3>().norm() / seconds;
-  seen_turn_rate_ = motion_.tail<3>().norm() / seconds;
-  const Matrix6 accelerated = squares(parameters.expected_acceleration * seconds,
-                                      parameters.expected_turn_acceleration * seconds);
-  velocity_covariance_ = (covariance_before + pose.alignment_covariance) / (seconds * seconds) +
-                         accelerated.cwiseMin(unknown);
+  if (!is_measured) filter_.reset(parameters);
+  const Vector6& twist = filter_.twistPerPeriod();
+  const double period = clock.period(parameters);
+  seen_speed_ = is_measured ? twist.head<3>().norm() / period : 0.0;
+  seen_turn_rate_ = is_measured ? twist.tail<3>().norm() / period : 0.0;
 }
 
 void MotionModel::stop() {
@@ -82,10 +81,10 @@ Vector6 MotionModel::motionUntil(double stamp, const FrameClock& clock,
     return period > 0.0 ? std::min(wanted, std::max(0.0, seconds) / period) : wanted;
   };
   const double of_seen = within(std::max(kMotionHorizon, period));
-  const double of_motion = periods(clock, parameters);
-  if (!last_.has_open_directions) return of_seen / of_motion * motion_;
+  const Vector6& twist = filter_.twistPerPeriod();
+  if (!last_.has_open_directions) return of_seen * twist;
   const double of_open = within(kMotionHorizon - secondsUnseen(last_.stamp));
-  return (of_seen * motion_ + (of_open - of_seen) * (last_.open_projector * motion_)) / of_motion;
+  return of_seen * twist + (of_open - of_seen) * (last_.open_projector * twist);
 }
 
 Eigen::Isometry3d MotionModel::predict(double stamp, const Eigen::Isometry3d& last,
@@ -101,7 +100,7 @@ Matrix6 MotionModel::driftWithin(double seconds, const MotionParameters& paramet
   const double u = seconds / kMotionHorizon;
   const double of_known = kMotionHorizon * (1.0 - std::exp(-u));
   const double of_unknown = kMotionHorizon * integralOfGrowth(u);
-  return of_known * of_known * velocity_covariance_ +
+  return of_known * of_known * filter_.covariance() +
          of_unknown * of_unknown *
              squares(std::max(seen_speed_, parameters.expected_speed),
                      std::max(seen_turn_rate_, parameters.expected_turn_rate));

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 
 #include "core/odometry/frame_clock.h"
+#include "core/odometry/velocity_filter.h"
 #include "mivo/core/parameters.h"
 #include "mivo/core/se3.h"
 
@@ -26,6 +27,7 @@ struct MeasuredPose {
 };
 
 /// Constant-velocity motion model in whole frame periods, extrapolating for at most half a second.
+/// The velocity is filtered, see VelocityFilter.
 /// In open directions the last observed velocity is used for that long, and its growing uncertainty
 /// is part of the covariance.
 class MotionModel {
@@ -54,7 +56,8 @@ class MotionModel {
   /// The part of it that has come up since the last pose.
   Matrix6 drift(double stamp, const FrameClock& clock, const MotionParameters& parameters) const;
 
-  /// Velocity of the camera in its own axes, m/s and rad/s; zero before two poses.
+  /// Velocity of the camera between the last two poses, not filtered, in its own axes, m/s and
+  /// rad/s; zero before two poses.
   Vector6 velocity(const FrameClock& clock, const MotionParameters& parameters) const;
 
   /// Whole frame periods from the last pose to a stamp, at least one.
@@ -77,9 +80,9 @@ class MotionModel {
   double previous_stamp_ = 0.0;       // of the pose before the last
   // The last pose without open directions, and the speed of the camera at that time.
   MeasuredPose seen_;
-  double seen_speed_ = 0.0;                        // m/s
-  double seen_turn_rate_ = 0.0;                    // rad/s
-  Matrix6 velocity_covariance_ = Matrix6::Zero();  // of its error then
+  double seen_speed_ = 0.0;      // m/s
+  double seen_turn_rate_ = 0.0;  // rad/s
+  VelocityFilter filter_;
 };
 
 }  // namespace mivo
