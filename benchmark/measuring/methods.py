@@ -4,7 +4,7 @@
 # The paper's methods are on the intensities themselves and do not know what came after it.
 RAW = {"photometric_model": "none", "geometric_term": "false",
        "rolling_shutter_estimation": "false", "hold_coarse_levels": "false",
-       "surprise_deviations": "1000000"}
+       "motion_model": "constant_velocity", "surprise_deviations": "1000000"}
 # OpenCV's odometries, as run_peer calls them.
 PEERS = {"rgbd": "RgbdOdometry", "icp": "ICPOdometry", "rgbd_icp": "RgbdICPOdometry"}
 

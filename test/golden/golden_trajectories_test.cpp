@@ -62,6 +62,8 @@ Parameters parametersOf(const Case& here) {
   parameters.alignment.method = here.method;
   parameters.alignment.photometric_model = here.model;
   parameters.keyframes.keyframe_translation = 0.04;
+  const bool is_of_paper = here.model == PhotometricModel::kNone;
+  if (is_of_paper) parameters.motion.motion_model = MotionModelKind::kConstantVelocity;
   return parameters;
 }
 

@@ -10,6 +10,6 @@ enum class PhotometricModel { kNone, kLcn };
 enum class MiHessian { kFull, kReference };
 enum class RobustWeight { kNone, kHuber, kTukey, kStudentT };
 enum class KeyframePolicy { kAutomatic, kFirst };
-enum class MotionModelKind { kConstantVelocity, kConstantPose };
+enum class MotionModelKind { kConstantVelocity, kConstantPose, kFilteredVelocity };
 
 }  // namespace mivo

@@ -27,7 +27,7 @@ struct MeasuredPose {
 };
 
 /// Constant-velocity motion model in whole frame periods, extrapolating for at most half a second.
-/// The velocity is filtered, see VelocityFilter.
+/// The velocity is that of VelocityFilter.
 /// In open directions the last observed velocity is used for that long, and its growing uncertainty
 /// is part of the covariance.
 class MotionModel {

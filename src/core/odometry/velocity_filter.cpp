@@ -32,10 +32,16 @@ void VelocityFilter::add(const MeasuredMotion& motion, const MotionParameters& p
   const Matrix6 before =
       is_known_ ? Matrix6(covariance_now_ + change) : unknownVelocity(parameters);
   const Matrix6 measured = motion.covariance / (motion.seconds * motion.seconds);
-  const Matrix6 gain = Matrix6(before + measured).ldlt().solve(before).transpose();
-  twist_per_period_ += gain * (motion.twist / motion.periods - twist_per_period_);
+  const Vector6 of_motion = motion.twist / motion.periods;
+  Matrix6 after = measured;
+  if (parameters.motion_model == MotionModelKind::kFilteredVelocity) {
+    const Matrix6 gain = Matrix6(before + measured).ldlt().solve(before).transpose();
+    twist_per_period_ += gain * (of_motion - twist_per_period_);
+    after = before - gain * before;
+  } else {
+    twist_per_period_ = of_motion;
+  }
   if (motion.has_open_directions) return;
-  const Matrix6 after = before - gain * before;
   covariance_now_ = 0.5 * (after + after.transpose());
   covariance_ = covariance_now_ + change;
   is_known_ = true;

@@ -17,7 +17,8 @@ struct MeasuredMotion {
 
 /// Kalman filter of the camera's velocity, with random acceleration between motions. Where poses
 /// are known well it follows the last motion; a motion between poses that are hardly known changes
-/// it little, so that their errors do not lead the next prediction away.
+/// it little, so that their errors do not lead the next prediction away. With another motion_model
+/// than filtered_velocity the last motion alone counts.
 class VelocityFilter {
  public:
   /// The velocity is arbitrary: zero, with the expected speeds as deviations.

@@ -7,7 +7,7 @@
 #include "mivo/core/odometry.h"
 #include "support/camera_path.h"
 
-// Poses are extrapolated for at most half a second of the last measured velocity: after a gap, and
+// Poses are extrapolated for at most half a second of the velocity: after a gap, and
 // while parameters change with the lens covered.
 
 namespace mivo {
@@ -76,8 +76,8 @@ class Traveled {
     return result;
   }
 
-  /// The distance at the last measured velocity, plus a millimeter.
-  double most() const { return kHorizon * last.velocity.head<3>().norm() + 1e-3; }
+  /// The distance at the camera's velocity, plus a millimeter.
+  double most() const { return kHorizon * kSpeed + 1e-3; }
 
   double stamp = 10.0;
   Odometry odometry;

@@ -81,6 +81,16 @@ TEST_F(VelocityFilterTest, TheErrorsAreThoseOfTheCovariance) {
   EXPECT_NEAR(chi_square / (kMotions - 1), 1.0, 0.15);
 }
 
+TEST_F(VelocityFilterTest, WithConstantVelocityTheLastMotionAloneCounts) {
+  parameters_.motion_model = MotionModelKind::kConstantVelocity;
+  for (int n = 0; n < 3; ++n) {
+    twist_ *= -0.5;
+    add(twist_, 0.3, 0.3);
+    EXPECT_EQ(filter_.twistPerPeriod(), twist_);
+  }
+  EXPECT_GT(filter_.covariance()(0, 0), std::pow(0.3 / kPeriod, 2));
+}
+
 TEST_F(VelocityFilterTest, OpenDirectionsLeaveTheCovarianceAsItWas) {
   for (int n = 0; n < 10; ++n) add(twist_, 0.001, 0.0005);
   const Matrix6 before = filter_.covariance();
