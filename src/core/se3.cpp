@@ -80,6 +80,13 @@ Vector6 logSe3(const Eigen::Isometry3d& T) {
   return twist;
 }
 
+bool isRigid(const Eigen::Isometry3d& T) {
+  constexpr double kTolerance = 1e-3;  // rounding in single precision is far below
+  const Eigen::Matrix3d R = T.linear();
+  return T.matrix().allFinite() && (R.transpose() * R).isIdentity(kTolerance) &&
+         R.determinant() > 0.0;
+}
+
 Eigen::Isometry3d orthonormalized(const Eigen::Isometry3d& T) {
   Eigen::Isometry3d result = T;
   result.linear() = Eigen::Quaterniond(T.linear()).normalized().toRotationMatrix();

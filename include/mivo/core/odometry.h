@@ -37,14 +37,14 @@ class Odometry {
   /// TrackingResult::isRefused().
   const TrackingResult& process(const Frame& frame);
 
-  /// The same, starting at the given pose instead of the predicted one.
+  /// The same, starting at the given pose instead of the predicted one, if it is one (isRigid).
   const TrackingResult& process(const Frame& frame, const Eigen::Isometry3d& T_odom_camera_start);
 
   /// Pose predicted by the motion model, which extrapolates for at most half a second.
   Eigen::Isometry3d predictedPose(double stamp) const;
 
   /// Discards keyframes, motion and stamps; the next frame gets the given pose. Throws Error when
-  /// the pose is not finite, as setPose does.
+  /// the pose is not one (isRigid), as setPose does.
   void reset(const Eigen::Isometry3d& T_odom_camera = Eigen::Isometry3d::Identity());
 
   /// Moves the world so that the last pose becomes the given one; tracking is not interrupted.

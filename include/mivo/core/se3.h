@@ -34,6 +34,10 @@ Eigen::Isometry3d expSe3(const Vector6& twist);
 /// Twist of a rigid motion; the paper's Eq. 6 measures errors by it.
 Vector6 logSe3(const Eigen::Isometry3d& T);
 
+/// Whether the numbers are finite and the 3 x 3 part is a rotation: orthonormal within 0.001, and
+/// not a reflection.
+bool isRigid(const Eigen::Isometry3d& T);
+
 /// The same motion with an orthonormalized rotation. Needed for products of many motions: with the
 /// transpose as inverse, rounding errors would triple with each frame.
 Eigen::Isometry3d orthonormalized(const Eigen::Isometry3d& T);

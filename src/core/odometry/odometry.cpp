@@ -17,8 +17,9 @@
 namespace mivo {
 namespace {
 
-void requireFinite(const Eigen::Isometry3d& T_odom_camera) {
+void requirePose(const Eigen::Isometry3d& T_odom_camera) {
   if (!T_odom_camera.matrix().allFinite()) throw Error("pose: a number of it is not finite");
+  if (!isRigid(T_odom_camera)) throw Error("pose: its 3 x 3 part is not a rotation");
 }
 
 }  // namespace
@@ -239,12 +240,12 @@ Eigen::Isometry3d Odometry::predictedPose(double stamp) const {
 }
 
 void Odometry::reset(const Eigen::Isometry3d& T_odom_camera) {
-  requireFinite(T_odom_camera);
+  requirePose(T_odom_camera);
   implementation_->reset(T_odom_camera);
 }
 
 void Odometry::setPose(const Eigen::Isometry3d& T_odom_camera) {
-  requireFinite(T_odom_camera);
+  requirePose(T_odom_camera);
   implementation_->setPose(T_odom_camera);
 }
 

@@ -7,7 +7,7 @@ Prediction predict(const OdometryState& state, double stamp, const Eigen::Isomet
                    const MotionParameters& parameters) {
   Prediction prediction;
   prediction.stamp = stamp;
-  prediction.is_given = start != nullptr && start->matrix().allFinite();
+  prediction.is_given = start != nullptr && isRigid(*start);
   prediction.T_odom_camera = prediction.is_given ? *start
                                                  : state.motion.predict(stamp, state.T_odom_camera,
                                                                         state.clock, parameters);

@@ -190,12 +190,18 @@ TEST(OdometryTest, SetPoseMovesTheWorldAndTrackingGoesOn) {
   EXPECT_EQ(moved.result().segment, 0);
 }
 
-TEST(OdometryTest, PosesThatAreNotFiniteAreRefused) {
-  Odometry odometry(walk().camera, {});
-  Eigen::Isometry3d broken = Eigen::Isometry3d::Identity();
-  broken.linear()(1, 1) = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(odometry.reset(broken), Error);
-  EXPECT_THROW(odometry.setPose(broken), Error);
+TEST(OdometryTest, PosesThatAreNoneAreRefused) {
+  for (const double number : {std::numeric_limits<double>::quiet_NaN(), 0.0, -1.0, 1.01}) {
+    Odometry odometry(walk().camera, {});
+    Eigen::Isometry3d broken = Eigen::Isometry3d::Identity();
+    broken.linear()(1, 1) = number;
+    EXPECT_THROW(odometry.reset(broken), Error);
+    EXPECT_THROW(odometry.setPose(broken), Error);
+    odometry.process(walk().frames[0]);
+    const TrackingResult& result = odometry.process(walk().frames[1], broken);
+    EXPECT_EQ(result.state, TrackingState::kTracking);
+    expectNear(result.T_odom_camera, walk().T_first_camera[1], 0.005, 0.005);
+  }
 }
 
 TEST(OdometryTest, KeyframesChangeWithoutAJump) {
