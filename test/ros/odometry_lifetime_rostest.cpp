@@ -7,6 +7,7 @@
 #include <nodelet/NodeletUnload.h>
 #include <std_srvs/Trigger.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
 #include <functional>
@@ -143,7 +144,6 @@ TEST_F(LifetimeTest, TwoInOneManagerSayTheSame) {
 // In the suite for a few seconds; MIVO_SOAK_FRAMES=54000 is half an hour of 30 Hz.
 TEST_F(LifetimeTest, ALongRunHoldsNothingMore) {
   const int num_frames = fromEnvironment("MIVO_SOAK_FRAMES", 1500);
-  constexpr int kWarmUp = 500;
   constexpr double kBytesPerPose = 136.0;  // kept for ~save_trajectory
   publishCameraOnBase();
   load();
@@ -155,7 +155,8 @@ TEST_F(LifetimeTest, ALongRunHoldsNothingMore) {
       if (i % 100 == 0) forget();
     }
   };
-  run(kWarmUp);
+  // The path is published up to path_length, and buffers grow to their largest.
+  run(std::max(500, num_frames / 2));
   const Holdings before = holdings();
   run(num_frames);
   const Holdings after = holdings();
