@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/alignment/level_aligner.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 
 #include "core/alignment/minimize.h"
@@ -30,16 +29,6 @@ constexpr double kLastTolerance = 4.0;
 /// Motion of the scene per frame period in the axes of the live camera at a pose.
 Vector6 twistPerPeriod(const AlignmentTask& task, const Eigen::Isometry3d& T_live_ref) {
   return localCoordinates(T_live_ref * task.motion.T_previous_ref.inverse()) / task.motion.periods;
-}
-
-/// Factor by which a term is overconfident: with independent residuals the covariance of its
-/// gradient would be its Hessian.
-double correlationFactor(GeometricTerm& term) {
-  Matrix6 of_gradient;
-  if (term.gradientCovariance(of_gradient) < kFewestBlocks) return 1.0;
-  const Matrix6 hessian = term.linearize(0).hessian;
-  const Matrix6 ratio = hessian.ldlt().solve(of_gradient);
-  return std::max(1.0, ratio.trace() / 6.0);
 }
 
 }  // namespace
@@ -216,12 +205,24 @@ void LevelAligner::alignByMutualInformation() {
   // Not significant: the maximum is meaningless. Depth alone may still determine the pose.
   alignment_.T_live_ref = start;
   if (GeometricTerm* geometry = geometricTerm(parameters_.geometry.geometric_points_dark)) {
-    LevelTerms terms;
-    terms.depth = geometry;
-    if (geometry != nullptr) terms.prior = motionPrior(correlationFactor(*geometry));
-    minimizeTerms(terms);
-    judgeDepth(*geometry);
+    alignByDepthAlone(*geometry);
   }
+}
+
+void LevelAligner::alignByDepthAlone(GeometricTerm& geometry) {
+  LevelTerms terms;
+  terms.depth = &geometry;
+  terms.prior = motionPrior(geometry.overconfidence());
+  minimizeTerms(terms);
+  judgeDepth(geometry);
+}
+
+/// A dark image is mostly noise, which leaves directions open that depth alone sees.
+void LevelAligner::leaveOutDarkImage(GeometricTerm& geometry, const Eigen::Isometry3d& start) {
+  const Alignment with_image = alignment_;
+  alignment_.T_live_ref = start;
+  alignByDepthAlone(geometry);
+  if (alignment_.has_open_directions) alignment_ = with_image;
 }
 
 SsdTerm LevelAligner::intensityTerm(std::size_t num_points) const {
@@ -243,6 +244,7 @@ LevelAligner::Stage LevelAligner::alignLeadingPoints() {
 }
 
 void LevelAligner::alignBySsd() {
+  const Eigen::Isometry3d start = alignment_.T_live_ref;
   const Stage stage = alignLeadingPoints();
   SsdTerm term = intensityTerm(points_.size());
   alignment_.sees_image = isEnoughInView(term) && term.isSignificant();
@@ -260,9 +262,14 @@ void LevelAligner::alignBySsd() {
   }
   terms.depth = geometry;
   if (!alignment_.sees_image && geometry != nullptr)
-    terms.prior = motionPrior(correlationFactor(*geometry));
+    terms.prior = motionPrior(geometry->overconfidence());
   minimizeTerms(terms, stage);
   if (geometry != nullptr) judgeDepth(*geometry);
+  if (alignment_.sees_image && !shows_enough && alignment_.has_open_directions &&
+      geometry != nullptr) {
+    leaveOutDarkImage(*geometry, start);
+    term.evaluate(alignment_.T_live_ref);
+  }
   // If the image shows nothing, or only white, the points of the depth term count.
   record_.visible = static_cast<int>(alignment_.sees_image || geometry == nullptr
                                          ? term.numVisible()

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/terms/geometric_term.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 
 #include "core/images/depth_pyramid.h"
@@ -57,6 +58,13 @@ int GeometricTerm::gradientCovariance(Matrix6& covariance) const {
   std::array<const float*, 6> jacobian;
   for (std::size_t k = 0; k < 6; ++k) jacobian[k] = (*jacobian_)[k].data();
   return sum_.scoreCovariance(*residuals_, jacobian, *u_, *v_, warp_.camera(), covariance);
+}
+
+double GeometricTerm::overconfidence() {
+  Matrix6 of_gradient;
+  if (gradientCovariance(of_gradient) < kFewestBlocks) return 1.0;
+  const Matrix6 ratio = linearize(0).hessian.ldlt().solve(of_gradient);
+  return std::max(1.0, ratio.trace() / 6.0);
 }
 
 Agreement GeometricTerm::agreement(std::size_t most_points) const {

@@ -32,6 +32,10 @@ class GeometricTerm : public CostTerm {
 
   std::size_t numVisible() const { return residuals_->num_visible; }
 
+  /// Factor by which the costs are too certain: with independent residuals the covariance of the
+  /// gradient would be the Hessian. At least 1.
+  double overconfidence();
+
   /// Scale of the residuals in deviations of a reading, at least 1.
   double scale() const { return sum_.scale(); }
 

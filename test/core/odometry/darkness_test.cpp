@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdint>
+
 #include "mivo/core/odometry.h"
 #include "support/camera_path.h"
 
@@ -71,6 +74,27 @@ TEST_F(DarknessTest, BackInTheLightAndInAKnownPlaceItIsFound) {
   EXPECT_EQ(odometry_.result().state, TrackingState::kTracking);
   EXPECT_EQ(odometry_.result().segment, 0);
   EXPECT_LT(errorOf(odometry_.result(), kDarkFrom - 1).norm(), 0.02);
+}
+
+// A dark image shows a little of the scene, and much noise: enough to be used, too little to be
+// trusted. Depth sees what the image leaves open, as here that the camera turns back.
+TEST_F(DarknessTest, WhatADarkImageLeavesOpenDepthSees) {
+  constexpr double kDim = 0.02;
+  constexpr double kNoise = 5.0;  // gray levels
+  for (int i = 0; i < 2 * kDarkFrom; ++i) {
+    const int at = std::min(i, 2 * kDarkFrom - i);
+    Frame here = testing::render(testing::roomScene(), camera_, T_world_first_ * pose(at));
+    here.stamp = 10.0 + testing::kFramePeriod * i;
+    if (i >= kDarkFrom) {
+      here.image *= kDim;
+      here = testing::withNoise(here, kNoise, static_cast<std::uint64_t>(i));
+    }
+    const TrackingResult& result = odometry_.process(here);
+    EXPECT_NE(result.state, TrackingState::kLost) << i;
+    EXPECT_NE(result.reason, TrackingReason::kOpenDirections) << i;
+    EXPECT_LT(errorOf(result, at).head<3>().norm(), 0.03) << i;
+    EXPECT_LT(errorOf(result, at).tail<3>().norm(), 0.01) << i;
+  }
 }
 
 TEST_F(DarknessTest, WithoutDepthItIsLostMeanwhile) {
