@@ -115,7 +115,8 @@ void CameraPath::slide() {
   // Where there is room to go.
   const Eigen::Vector3d direction = randomDirection().cwiseProduct(viewpoint_.reach).normalized();
   const Eigen::Vector3d velocity = uniform(kSlideSlowest, kSlideFastest) * direction;
-  const Eigen::Vector3d turn_rate = uniform(0.0, kSlideTurnRate) * randomDirection();
+  const Eigen::Vector3d rotation_axis = randomDirection();
+  const Eigen::Vector3d turn_rate = uniform(0.0, kSlideTurnRate) * rotation_axis;
   const Eigen::Vector3d angle_reach(viewpoint_.yaw_reach, viewpoint_.pitch_reach, kRollReach);
   for (int i = 0; i < 3; ++i) {
     const auto axis = static_cast<std::size_t>(i);

@@ -27,9 +27,11 @@ void addCorridorWall(SceneBuilder& b, float wall) {
   b.box({wall - 0.015F, -0.55F, 1.05F}, {0.03F, 1.5F, 0.95F}, cork);
   for (int i = 0; i < 9; ++i) {
     const float y = -0.55F + 0.16F * static_cast<float>(i - 4) + b.uniform(-0.03F, 0.03F);
+    const float height = b.uniform(0.2F, 0.34F);
+    const float width = b.uniform(0.17F, 0.3F);
+    const float z = 1.5F + b.uniform(-0.28F, 0.28F);
     b.uprightPanel(
-        {wall - 0.034F - 0.002F * static_cast<float>(i), y, 1.5F + b.uniform(-0.28F, 0.28F)}, kPi,
-        b.uniform(0.17F, 0.3F), b.uniform(0.2F, 0.34F),
+        {wall - 0.034F - 0.002F * static_cast<float>(i), y, z}, kPi, width, height,
         b.picture(i % 3 == 0 ? paintingTexture(b.nextSeed()) : printedPageTexture(b.nextSeed())));
   }
   // Radiator and extinguisher.
@@ -97,8 +99,9 @@ Scene makeWall(std::uint64_t seed) {
       const float z = 0.95F + 0.72F * static_cast<float>(row) + b.uniform(-0.08F, 0.08F);
       const int picture = (column + row) % 2 == 0 ? b.picture(paintingTexture(b.nextSeed()), 0.1F)
                                                   : b.picture(printedPageTexture(b.nextSeed()));
-      b.uprightPanel({kWall - kOff, y, z}, kPi, b.uniform(0.3F, 0.6F), b.uniform(0.3F, 0.58F),
-                     picture);
+      const float height = b.uniform(0.3F, 0.58F);
+      const float width = b.uniform(0.3F, 0.6F);
+      b.uprightPanel({kWall - kOff, y, z}, kPi, width, height, picture);
     }
   }
 

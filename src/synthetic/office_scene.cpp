@@ -65,8 +65,9 @@ void addPlant(SceneBuilder& b, float x, float y) {
   for (int i = 0; i < 14; ++i) {
     const float angle = b.uniform(0.0F, 6.28F);
     const float radius = b.uniform(0.02F, 0.2F);
-    b.sphere({radius * std::cos(angle), radius * std::sin(angle), b.uniform(0.4F, 1.0F)},
-             b.uniform(0.05F, 0.11F), leaves);
+    const float leaf = b.uniform(0.05F, 0.11F);
+    const float z = b.uniform(0.4F, 1.0F);
+    b.sphere({radius * std::cos(angle), radius * std::sin(angle), z}, leaf, leaves);
   }
 }
 
@@ -89,8 +90,10 @@ Scene makeOffice(std::uint64_t seed) {
   b.box({2.05F, -0.2F, 0.0F}, {0.06F, 3.2F, 1.35F}, m.partition, m.gray_metal);
   b.box({1.5F, 1.45F, 0.0F}, {1.1F, 0.06F, 1.35F}, m.partition, m.gray_metal);
   for (const float y : {-1.3F, -0.75F, 0.1F, 0.95F}) {
-    b.uprightPanel({2.012F, y, 1.0F + b.uniform(-0.08F, 0.08F)}, kPi, b.uniform(0.2F, 0.3F),
-                   b.uniform(0.28F, 0.38F), b.picture(printedPageTexture(b.nextSeed())));
+    const float height = b.uniform(0.28F, 0.38F);
+    const float width = b.uniform(0.2F, 0.3F);
+    const float z = 1.0F + b.uniform(-0.08F, 0.08F);
+    b.uprightPanel({2.012F, y, z}, kPi, width, height, b.picture(printedPageTexture(b.nextSeed())));
   }
   addDesk(b, m, 1.5F, 0.25F, 0.0F);
   b.place(0.75F, 0.0F, 0.0F, 2.6F);

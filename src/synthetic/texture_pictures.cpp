@@ -12,7 +12,8 @@
 namespace mivo {
 namespace {
 
-// Draws with 8-bit sRGB colors, as a printer would; turned into reflectances at the end.
+// Draws with 8-bit sRGB colors, as a printer would; turned into reflectances at the end. Random
+// values have a name each: compilers differ in the order in which they evaluate arguments.
 class Canvas {
  public:
   Canvas(int width, int height, std::uint64_t seed, const cv::Scalar& background)
@@ -25,7 +26,10 @@ class Canvas {
     return low + static_cast<int>(uniform(0.0, static_cast<double>(high - low) + 0.999));
   }
   cv::Scalar color(double low = 20, double high = 235) {
-    return cv::Scalar(uniform(low, high), uniform(low, high), uniform(low, high));
+    const double red = uniform(low, high);
+    const double green = uniform(low, high);
+    const double blue = uniform(low, high);
+    return {blue, green, red};
   }
   cv::Point point() { return {integer(0, image.cols - 1), integer(0, image.rows - 1)}; }
 
@@ -114,12 +118,13 @@ Texture paintingTexture(std::uint64_t seed) {
     const int size = static_cast<int>(20.0 / std::sqrt(canvas.uniform(0.008, 1.0)));
     const cv::Scalar color = canvas.color();
     switch (canvas.integer(0, 3)) {
-      case 0:
-        cv::ellipse(drawn, canvas.point(),
-                    {size, static_cast<int>(size * canvas.uniform(0.3, 1.0)) + 1},
-                    canvas.uniform(0, 180), 0, 360, color, canvas.uniform(0, 1) < 0.6 ? -1 : 4,
-                    cv::LINE_AA);
+      case 0: {
+        const int thickness = canvas.uniform(0, 1) < 0.6 ? -1 : 4;
+        const double turn = canvas.uniform(0, 180);
+        const cv::Size axes(size, static_cast<int>(size * canvas.uniform(0.3, 1.0)) + 1);
+        cv::ellipse(drawn, canvas.point(), axes, turn, 0, 360, color, thickness, cv::LINE_AA);
         break;
+      }
       case 1: {
         const cv::Point center = canvas.point();
         std::vector<cv::Point> corners;
@@ -131,16 +136,22 @@ Texture paintingTexture(std::uint64_t seed) {
         cv::fillPoly(drawn, std::vector<std::vector<cv::Point>>{corners}, color, cv::LINE_AA);
         break;
       }
-      case 2:
-        cv::line(drawn, canvas.point(), canvas.point(), color, canvas.integer(1, 9), cv::LINE_AA);
+      case 2: {
+        const int thickness = canvas.integer(1, 9);
+        const cv::Point end = canvas.point();
+        cv::line(drawn, canvas.point(), end, color, thickness, cv::LINE_AA);
         break;
-      default:
-        cv::putText(drawn, canvas.word(), canvas.point(), cv::FONT_HERSHEY_DUPLEX,
-                    size / 40.0 + 0.4, color, 2 + size / 30, cv::LINE_AA);
+      }
+      default: {
+        const cv::Point start = canvas.point();
+        cv::putText(drawn, canvas.word(), start, cv::FONT_HERSHEY_DUPLEX, size / 40.0 + 0.4, color,
+                    2 + size / 30, cv::LINE_AA);
+      }
     }
     blend(canvas.image, drawn, canvas.uniform(0.55, 1.0));
   }
-  canvas.textLine(60, 460, 470, canvas.uniform(14, 34), canvas.color(0, 255));
+  const cv::Scalar ink = canvas.color(0, 255);
+  canvas.textLine(60, 460, 470, canvas.uniform(14, 34), ink);
   cv::rectangle(canvas.image, {0, 0}, {511, 511}, canvas.color(10, 240), 18);
   return canvas.finish(0.05, 0.15F);
 }
@@ -150,17 +161,19 @@ Texture rugTexture(std::uint64_t seed) {
   canvas.image.setTo(canvas.color(30, 120));
   for (int border = 0; border < 6; ++border) {
     const int inset = 12 + border * 16 + canvas.integer(0, 6);
+    const int thickness = canvas.integer(2, 10);
     cv::rectangle(canvas.image, {inset, inset}, {511 - inset, 511 - inset}, canvas.color(20, 220),
-                  canvas.integer(2, 10));
+                  thickness);
   }
   // Ornaments, mirrored as on a woven rug but each with its own faults.
   for (int i = 0; i < 60; ++i) {
     const int size = canvas.integer(4, 26);
-    const cv::Point center(canvas.integer(110, 256), canvas.integer(110, 256));
+    const int center_y = canvas.integer(110, 256);
+    const int center_x = canvas.integer(110, 256);
     const cv::Scalar color = canvas.color(20, 230);
     for (int mirror = 0; mirror < 4; ++mirror) {
-      const cv::Point c(mirror & 1 ? 511 - center.x : center.x,
-                        mirror & 2 ? 511 - center.y : center.y);
+      const cv::Point c(mirror & 1 ? 511 - center_x : center_x,
+                        mirror & 2 ? 511 - center_y : center_y);
       const cv::Scalar tone = color + cv::Scalar::all(canvas.uniform(-25, 25));
       cv::ellipse(canvas.image, c, {size, size / 2 + 1}, canvas.uniform(-8, 8) + 45.0 * (i % 4), 0,
                   360, tone, i % 3 == 0 ? 2 : -1, cv::LINE_AA);
@@ -207,17 +220,18 @@ Texture bookRowTexture(std::uint64_t seed) {
     cv::rectangle(canvas.image, back, cover, -1);
     for (int band = canvas.integer(0, 3); band > 0; --band) {
       const int y = canvas.integer(top + 8, 240);
-      cv::rectangle(canvas.image, {back.x, y, back.width, canvas.integer(2, 14)},
-                    canvas.color(30, 230), -1);
+      const cv::Scalar color = canvas.color(30, 230);
+      cv::rectangle(canvas.image, {back.x, y, back.width, canvas.integer(2, 14)}, color, -1);
     }
     // The title runs upwards: written on a strip, which is then turned.
     if (back.width > 14 && back.height > 60) {
       cv::Mat strip(back.width, back.height, CV_8UC3);
       cv::rotate(canvas.image(back), strip, cv::ROTATE_90_CLOCKWISE);
       const double size = 0.42 * back.width;
-      cv::putText(strip, canvas.word() + " " + canvas.word(),
-                  {12, back.width / 2 + static_cast<int>(size / 2)}, cv::FONT_HERSHEY_SIMPLEX,
-                  size / 21.0, print, 1, cv::LINE_AA);
+      const std::string last_word = canvas.word();
+      const std::string title = canvas.word() + " " + last_word;
+      cv::putText(strip, title, {12, back.width / 2 + static_cast<int>(size / 2)},
+                  cv::FONT_HERSHEY_SIMPLEX, size / 21.0, print, 1, cv::LINE_AA);
       cv::Mat turned;
       cv::rotate(strip, turned, cv::ROTATE_90_COUNTERCLOCKWISE);
       turned.copyTo(canvas.image(back));
@@ -231,16 +245,20 @@ Texture bookRowTexture(std::uint64_t seed) {
 Texture screenTexture(std::uint64_t seed) {
   Canvas canvas(512, 512, seed, cv::Scalar(60, 45, 35));
   for (int window = 0; window < 4; ++window) {
-    const cv::Rect frame(canvas.integer(8, 230), canvas.integer(8, 230), canvas.integer(180, 270),
-                         canvas.integer(150, 270));
+    const int height = canvas.integer(150, 270);
+    const int width = canvas.integer(180, 270);
+    const int top = canvas.integer(8, 230);
+    const int left = canvas.integer(8, 230);
+    const cv::Rect frame(left, top, width, height);
     const bool dark = canvas.uniform(0, 1) < 0.6;
     cv::rectangle(canvas.image, frame, dark ? cv::Scalar(38, 32, 30) : cv::Scalar(190, 190, 185),
                   -1);
     cv::rectangle(canvas.image, {frame.x, frame.y, frame.width, 18}, canvas.color(80, 180), -1);
     for (int y = frame.y + 36; y < frame.y + frame.height - 4; y += 16) {
       const int indent = 8 + 14 * canvas.integer(0, 3);
-      canvas.textLine(frame.x + indent, frame.x + canvas.integer(frame.width / 2, frame.width - 4),
-                      y, 9, dark ? canvas.color(120, 230) : canvas.color(10, 100));
+      const cv::Scalar ink = dark ? canvas.color(120, 230) : canvas.color(10, 100);
+      const int end = canvas.integer(frame.width / 2, frame.width - 4);
+      canvas.textLine(frame.x + indent, frame.x + end, y, 9, ink);
     }
   }
   cv::rectangle(canvas.image, {0, 0}, {511, 511}, cv::Scalar(18, 18, 18), 20);

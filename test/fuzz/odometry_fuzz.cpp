@@ -124,9 +124,9 @@ cv::Mat makeDepth(Input& input, const Camera& camera) {
   const int holes = input.ConsumeIntegralInRange<int>(0, 8);
   for (int i = 0; i < holes && !depth.empty(); ++i) {
     const cv::Rect whole(0, 0, depth.cols, depth.rows);
-    const cv::Rect hole(input.ConsumeIntegralInRange<int>(0, depth.cols - 1),
-                        input.ConsumeIntegralInRange<int>(0, depth.rows - 1), depth.cols / 3 + 1,
-                        depth.rows / 3 + 1);
+    const int x = input.ConsumeIntegralInRange<int>(0, depth.cols - 1);
+    const int y = input.ConsumeIntegralInRange<int>(0, depth.rows - 1);
+    const cv::Rect hole(x, y, depth.cols / 3 + 1, depth.rows / 3 + 1);
     depth(hole & whole).setTo(input.PickValueInArray(kOdd));
   }
   return depth;

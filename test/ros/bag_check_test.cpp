@@ -24,7 +24,11 @@ Frame boxes(int dx, int dy, unsigned seed) {
   frame.image = cv::Mat(240, 320, CV_8UC1, cv::Scalar(120));
   frame.depth = cv::Mat(240, 320, CV_16UC1, cv::Scalar(3000));
   for (int i = 0; i < 12; ++i) {
-    const cv::Rect box(uniform(30, 230), uniform(30, 170), uniform(20, 50), uniform(20, 40));
+    const int height = uniform(20, 40);
+    const int width = uniform(20, 50);
+    const int top = uniform(30, 170);
+    const int left = uniform(30, 230);
+    const cv::Rect box(left, top, width, height);
     const int depth = uniform(1000, 2000);
     cv::rectangle(frame.image, box, cv::Scalar(uniform(0, 255)), cv::FILLED);
     cv::rectangle(frame.depth, box + cv::Point(dx, dy), cv::Scalar(depth), cv::FILLED);

@@ -8,7 +8,8 @@
 #include "mivo/core/se3.h"
 
 // Random numbers for tests: seeded, and the same on every platform (the distributions of the
-// standard library are not).
+// standard library are not). Nor is the order in which arguments are evaluated: never draw two
+// numbers in one call.
 
 namespace mivo::testing {
 
@@ -32,7 +33,10 @@ class Random {
   /// Uniform on the unit sphere.
   Eigen::Vector3d direction() {
     while (true) {
-      const Eigen::Vector3d v(uniform(-1.0, 1.0), uniform(-1.0, 1.0), uniform(-1.0, 1.0));
+      const double z = uniform(-1.0, 1.0);
+      const double y = uniform(-1.0, 1.0);
+      const double x = uniform(-1.0, 1.0);
+      const Eigen::Vector3d v(x, y, z);
       const double square = v.squaredNorm();
       if (square > 0.01 && square <= 1.0) return v / std::sqrt(square);
     }

@@ -34,7 +34,8 @@ class TwoFrames {
     for (int i = 0; i < kPoints; ++i) {
       Vector6 seen = kSignal * normal();
       seen -= axis.dot(seen) * axis;
-      add(seen + noise * normal(), seen + noise * normal());
+      const Vector6 by_live = seen + noise * normal();
+      add(seen + noise * normal(), by_live);
     }
   }
 

@@ -38,7 +38,10 @@ MiEvidence evidenceOf(const std::function<Pair()>& draw, const IntensityRange& r
 }
 
 MiEvidence unrelatedUniform(Random& random, std::size_t points, int bins) {
-  const auto draw = [&] { return Pair(random.uniform(0.0, 255.0), random.uniform(0.0, 255.0)); };
+  const auto draw = [&] {
+    const double b = random.uniform(0.0, 255.0);
+    return Pair(random.uniform(0.0, 255.0), b);
+  };
   return evidenceOf(draw, {0.0F, 255.0F}, points, bins);
 }
 
