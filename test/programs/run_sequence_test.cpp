@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <opencv2/core.hpp>
 
 #include "io/image_file.h"
 #include "mivo/core/parameters.h"

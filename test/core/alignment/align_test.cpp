@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <opencv2/core.hpp>
 
 #include "core/alignment/pose_covariance.h"
 #include "support/random_pose.h"

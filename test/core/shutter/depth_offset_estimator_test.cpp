@@ -46,7 +46,7 @@ class DepthOffsetTest : public ::testing::Test {
     Keyframe keyframe;
     keyframe.build(reference, camera_, sceneTwist(before_), {0.0, assumed}, parameters);
     const AlignmentTask task{
-        keyframe, live, camera_, T_live_ref_, retract(after_) * T_live_ref_, 1.0, {0.0, assumed}};
+        keyframe, live, camera_, T_live_ref_, {retract(after_) * T_live_ref_, 1.0}, {0.0, assumed}};
     return align(task, parameters).depth_offset;
   }
 
