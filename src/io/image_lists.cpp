@@ -34,9 +34,11 @@ void tell(SequenceListing& listing, const std::string& text) {
 
 /// Puts the lines of a file in the order of their stamps, in seconds, and says so.
 template <typename Line>
-void orderLines(std::vector<Line>& lines, const fs::path& file, SequenceListing& listing) {
+StampOrder orderLines(std::vector<Line>& lines, const fs::path& file, SequenceListing& listing) {
   try {
-    tell(listing, describe(putInOrder(lines), "lines of " + file.string()));
+    const StampOrder order = putInOrder(lines);
+    tell(listing, describe(order, "lines of " + file.string()));
+    return order;
   } catch (const Error& error) {
     throw Error(file.string() + ": " + error.what());
   }
@@ -141,12 +143,13 @@ void takePairs(const fs::path& folder, const fs::path& file, SequenceListing& li
   if (is_depth_first) tell(listing, file.string() + " names depth first: read so");
   for (const ListedPair& pair : pairs) {
     if (is_depth_first) {
-      listing.frames.push_back({pair.other_stamp, pair.other_path, pair.path});
+      listing.frames.push_back({pair.other_stamp, pair.other_path, pair.stamp, pair.path});
     } else {
-      listing.frames.push_back({pair.stamp, pair.path, pair.other_path});
+      listing.frames.push_back({pair.stamp, pair.path, pair.other_stamp, pair.other_path});
     }
   }
-  orderLines(listing.frames, file, listing);
+  const double unit = orderLines(listing.frames, file, listing).unit;
+  for (ListedFrame& frame : listing.frames) frame.depth_stamp *= unit;
 }
 
 bool hasFileEndingWith(const fs::path& folder, const std::string& ending) {

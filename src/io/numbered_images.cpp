@@ -107,8 +107,8 @@ bool takeImages(const ImageNames& names, const fs::path& folder, SequenceListing
   for (const auto& [number, image] : images) {
     const auto depth = depths.find(number);
     if (depth != depths.end()) {
-      listing.frames.push_back(
-          {static_cast<double>(number) / kAssumedFrameRate, image.path, depth->second.path});
+      const double stamp = static_cast<double>(number) / kAssumedFrameRate;
+      listing.frames.push_back({stamp, image.path, stamp, depth->second.path});
     }
   }
   return !listing.frames.empty();

@@ -49,15 +49,26 @@ std::optional<Eigen::Isometry3d> readPose(const fs::path& file) {
   return pose;
 }
 
+std::map<long, fs::path> poseFiles(const std::string& folder) {
+  auto files = numberedFiles(folder, {".pose.txt"});
+  return files.empty() ? numberedFiles(fs::path(folder) / "pose", {".txt"}) : files;
+}
+
+fs::path groundTruth(const std::string& folder) {
+  return fs::path(folder) / "groundtruth.txt";
+}
+
 }  // namespace
 
+bool hasPoses(const std::string& folder) {
+  return fs::exists(groundTruth(folder)) || !poseFiles(folder).empty();
+}
+
 TrajectoryFile readPoseFolder(const std::string& folder) {
-  const fs::path file = fs::path(folder) / "groundtruth.txt";
+  const fs::path file = groundTruth(folder);
   if (fs::exists(file)) return readTrajectoryFile(file.string());
-  auto files = numberedFiles(folder, {".pose.txt"});
-  if (files.empty()) files = numberedFiles(fs::path(folder) / "pose", {".txt"});
   TrajectoryFile result;
-  for (const auto& [number, path] : files) {
+  for (const auto& [number, path] : poseFiles(folder)) {
     const auto pose = readPose(path);
     if (pose) result.poses.push_back({static_cast<double>(number) / kAssumedFrameRate, *pose});
   }

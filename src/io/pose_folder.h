@@ -14,4 +14,7 @@ namespace mivo {
 /// is none of these, or a matrix is no pose.
 TrajectoryFile readPoseFolder(const std::string& folder);
 
+/// Whether a folder holds any of these files.
+bool hasPoses(const std::string& folder);
+
 }  // namespace mivo

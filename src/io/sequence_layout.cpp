@@ -86,7 +86,7 @@ void pairImages(const std::vector<ListedImage>& images, const std::vector<Listed
                 const std::string& whose, SequenceListing& listing) {
   refuseOtherClock(images, depths, whose);
   for (const auto& [i, j] : pairByStamp(stampsOf(images), stampsOf(depths))) {
-    listing.frames.push_back({images[i].stamp, images[i].path, depths[j].path});
+    listing.frames.push_back({images[i].stamp, images[i].path, depths[j].stamp, depths[j].path});
   }
   if (listing.frames.empty()) {
     const double offset = medianOffset(images, depths);

@@ -6,22 +6,18 @@
 #include <string>
 #include <vector>
 
+#include "io/depth_coding.h"
 #include "mivo/io/camera_file.h"
 
 namespace mivo {
 
-/// A frame of a sequence folder: its stamp (s) and where its images lie.
+/// A frame of a sequence folder: where its images lie and their stamps (s), of which that of color
+/// is the frame's.
 struct ListedFrame {
   double stamp;
   std::string image_path;
+  double depth_stamp;
   std::string depth_path;
-};
-
-/// How the 16 bits of a depth pixel are stored.
-enum class DepthCoding {
-  kPlain,
-  kRotated,   ///< by three bits to the left, as SUN3D and SUN RGB-D have it
-  kSaturated  ///< 65535, too, is no reading, as 7-Scenes has it
 };
 
 /// What a sequence folder holds, however it is laid out.

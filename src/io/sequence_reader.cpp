@@ -5,12 +5,12 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cstdint>
 #include <filesystem>
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
 #include "core/camera_doubt.h"
+#include "io/depth_coding.h"
 #include "io/image_file.h"
 #include "io/sequence_listing.h"
 #include "mivo/core/error.h"
@@ -88,22 +88,6 @@ void restrict(std::vector<ListedFrame>& frames, const FrameRange& range,
   frames.resize(count);
 }
 
-/// Pixels as depth units, 0 where there is no reading.
-void decodeDepth(cv::Mat& depth, DepthCoding coding) {
-  if (coding == DepthCoding::kPlain) return;
-  for (int y = 0; y < depth.rows; ++y) {
-    auto* const row = depth.ptr<std::uint16_t>(y);
-    for (int x = 0; x < depth.cols; ++x) {
-      const unsigned value = row[x];
-      if (coding == DepthCoding::kRotated) {
-        row[x] = static_cast<std::uint16_t>(value >> 3 | value << 13);
-      } else if (value == 0xFFFF) {
-        row[x] = 0;
-      }
-    }
-  }
-}
-
 }  // namespace
 
 /// Makes frames of what is listed.
@@ -114,14 +98,15 @@ class SequenceReader::Images {
   explicit Images(SequenceListing listing) : listing_(std::move(listing)) {
     std::string first_fault;
     for (const ListedFrame& listed : listing_.frames) {
-      Frame frame;
+      SequenceImages images;
       try {
-        frame = decode(listed);
+        images = decode(listed);
+        toGrayLevels(images.color, listed.image_path);
       } catch (const Error& error) {
         if (first_fault.empty()) first_fault = error.what();
         continue;
       }
-      fit(frame, listed);
+      fit(images, listed);
       const std::string doubt = doubtOf(listing_.camera.camera);
       if (!doubt.empty()) listing_.notices.push_back(listing_.camera_file + ": " + doubt);
       return;
@@ -133,15 +118,21 @@ class SequenceReader::Images {
   const SequenceListing& listing() const { return listing_; }
 
   /// Throws Error when an image cannot be read, or is not what the first ones were.
-  Frame read(const ListedFrame& listed) {
-    Frame frame = decode(listed);
-    requireSize(listed.image_path, frame.image, image_size_, "color");
-    requireSize(listed.depth_path, frame.depth, depth_size_, "depth");
-    if (fit_ == Fit::kReduceColor) {
-      cv::resize(frame.image, frame.image, depth_size_, 0.0, 0.0, cv::INTER_AREA);
-    } else if (fit_ == Fit::kEnlargeDepth) {
-      frame.depth = enlargeDepth(frame.depth, frame.depth_unit, image_size_);
-    }
+  SequenceImages readImages(const ListedFrame& listed) {
+    SequenceImages images = read(listed);
+    if (fit_ == Fit::kReduceColor) reduceToDepth(images.color);
+    return images;
+  }
+
+  /// The same with gray levels for color, which are reduced as such.
+  Frame readFrame(const ListedFrame& listed) {
+    SequenceImages images = read(listed);
+    Frame frame;
+    frame.stamp = images.stamp;
+    frame.image = toGrayLevels(images.color, listed.image_path);
+    if (fit_ == Fit::kReduceColor) reduceToDepth(frame.image);
+    frame.depth = images.depth;
+    frame.depth_unit = depthUnit();
     return frame;
   }
 
@@ -149,23 +140,43 @@ class SequenceReader::Images {
   /// How color and depth come to one size.
   enum class Fit { kSame, kReduceColor, kEnlargeDepth };
 
-  /// Images as they are stored, with values as a frame has them.
-  Frame decode(const ListedFrame& listed) {
-    Frame frame;
-    frame.stamp = listed.stamp;
-    const cv::Mat image = readImage(listed.image_path);
-    try {
-      frame.image = toGray(image, ChannelOrder::kBgr, range_.include(image));
-    } catch (const Error& error) {
-      throw Error(listed.image_path + ": " + error.what());
+  double depthUnit() const { return 1.0 / listing_.camera.depth_units_per_meter; }
+
+  void reduceToDepth(cv::Mat& color) const {
+    cv::resize(color, color, depth_size_, 0.0, 0.0, cv::INTER_AREA);
+  }
+
+  /// Depth of the size of the camera; color may be larger.
+  SequenceImages read(const ListedFrame& listed) {
+    SequenceImages images = decode(listed);
+    requireSize(listed.image_path, images.color, image_size_, "color");
+    requireSize(listed.depth_path, images.depth, depth_size_, "depth");
+    if (fit_ == Fit::kEnlargeDepth) {
+      images.depth = enlargeDepth(images.depth, depthUnit(), image_size_);
     }
-    frame.depth = readImage(listed.depth_path);
-    if (frame.depth.type() != CV_16UC1) {
+    return images;
+  }
+
+  /// Images as they are stored, with the values of depth as a frame has them.
+  SequenceImages decode(const ListedFrame& listed) const {
+    SequenceImages images;
+    images.stamp = listed.stamp;
+    images.depth_stamp = listed.depth_stamp;
+    images.color = readImage(listed.image_path);
+    images.depth = readImage(listed.depth_path);
+    if (images.depth.type() != CV_16UC1) {
       throw Error(listed.depth_path + " is no 16-bit image with one channel, as depth has to be");
     }
-    decodeDepth(frame.depth, listing_.depth_coding);
-    frame.depth_unit = 1.0 / listing_.camera.depth_units_per_meter;
-    return frame;
+    decodeDepth(images.depth, listing_.depth_coding);
+    return images;
+  }
+
+  cv::Mat toGrayLevels(const cv::Mat& color, const std::string& path) {
+    try {
+      return toGray(color, ChannelOrder::kBgr, range_.include(color));
+    } catch (const Error& error) {
+      throw Error(path + ": " + error.what());
+    }
   }
 
   /// All images are as large as the first ones.
@@ -177,15 +188,15 @@ class SequenceReader::Images {
                             sizeText(image.size()), kind, sizeText(first)));
   }
 
-  void fit(const Frame& frame, const ListedFrame& listed) {
-    image_size_ = frame.image.size();
-    depth_size_ = frame.depth.size();
+  void fit(const SequenceImages& images, const ListedFrame& listed) {
+    image_size_ = images.color.size();
+    depth_size_ = images.depth.size();
     Camera& camera = listing_.camera.camera;
     fit_ = fitOf(camera);
     if (camera.width == 0) setSize(camera, fit_ == Fit::kReduceColor ? depth_size_ : image_size_);
     if (sizeOf(camera) != image_size_ &&
         !(fit_ == Fit::kReduceColor && sizeOf(camera) == depth_size_)) {
-      refuseSize(listed.image_path, frame.image);
+      refuseSize(listed.image_path, images.color);
     }
     if (fit_ == Fit::kSame && depth_size_ != image_size_) {
       throw Error(
@@ -254,11 +265,12 @@ SequenceReader::SequenceReader(const std::string& folder, const FrameRange& rang
 
 SequenceReader::~SequenceReader() = default;
 
-FrameSource::Status SequenceReader::next(Frame& frame, FrameFault& fault) {
+template <typename Read>
+FrameSource::Status SequenceReader::readNext(const Read& read, FrameFault& fault) {
   if (next_ >= count_) return Status::kEnd;
   const ListedFrame& listed = images_->listing().frames[next_++];
   try {
-    frame = images_->read(listed);
+    read(listed);
     return Status::kFrame;
   } catch (const Error& error) {
     fault.text = error.what();
@@ -266,6 +278,14 @@ FrameSource::Status SequenceReader::next(Frame& frame, FrameFault& fault) {
   fault.reason = withoutPath(withoutPath(fault.text, listed.image_path, "the color image"),
                              listed.depth_path, "the depth image");
   return Status::kSkipped;
+}
+
+FrameSource::Status SequenceReader::next(Frame& frame, FrameFault& fault) {
+  return readNext([&](const ListedFrame& listed) { frame = images_->readFrame(listed); }, fault);
+}
+
+FrameSource::Status SequenceReader::nextImages(SequenceImages& images, FrameFault& fault) {
+  return readNext([&](const ListedFrame& listed) { images = images_->readImages(listed); }, fault);
 }
 
 const std::map<std::string, std::size_t>& SequenceReader::leftOut() const {

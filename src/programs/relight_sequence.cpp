@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "io/image_file.h"
-#include "io/table_reader.h"
+#include "io/sequence_listing.h"
 #include "mivo/core/error.h"
 #include "mivo/io/camera_file.h"
 #include "mivo/io/output_file.h"
@@ -28,49 +28,45 @@ const char* const kLists[] = {"rgb.txt", "depth.txt", "associations.txt", "groun
                               "camera.txt"};
 const char* const kImageFolders[] = {"rgb", "depth"};
 
+/// A color image: its stamp (s) and its path in the folder.
 struct Image {
   double stamp;
-  fs::path path;  // relative to the folder
+  fs::path path;
 };
 
-struct Contents {
-  std::vector<Image> color;  // by stamp, each once
-  std::vector<fs::path> depth;
-};
-
-fs::path relativePath(const mivo::TableReader& table, std::size_t field) {
-  const fs::path path = fs::path(table.text(field)).lexically_normal();
-  if (path.is_absolute() || path.begin() == path.end() || *path.begin() == "..") {
-    table.refuse("the path '" + table.text(field) + "' leaves the sequence folder");
+/// Of a path that a list names, in the folder.
+fs::path relativePath(const fs::path& folder, const std::string& listed) {
+  fs::path path = fs::path(listed).lexically_normal().lexically_relative(folder.lexically_normal());
+  if (path.empty() || path.is_absolute() || *path.begin() == "..") {
+    throw mivo::Error("the path '" + listed + "' leaves the sequence folder");
   }
   return path;
 }
 
-// The images that any of the lists names.
-Contents listImages(const fs::path& folder) {
-  Contents contents;
+/// The color images of all frames, by stamp, each once.
+std::vector<Image> listColor(const fs::path& folder, const mivo::SequenceListing& listing) {
+  std::vector<Image> images;
   std::set<fs::path> seen;
-  const auto add = [&](const char* list, std::size_t stamp_field, bool color) {
-    if (!fs::exists(folder / list)) return;
-    mivo::TableReader table((folder / list).string());
-    while (table.next()) {
-      if (table.size() < stamp_field + 2) table.refuse("expected a stamp and a path");
-      const fs::path path = relativePath(table, stamp_field + 1);
-      if (!seen.insert(path).second) continue;
-      if (color) {
-        contents.color.push_back({table.number(stamp_field), path});
-      } else {
-        contents.depth.push_back(path);
-      }
-    }
-  };
-  add("rgb.txt", 0, true);
-  add("associations.txt", 0, true);
-  add("depth.txt", 0, false);
-  add("associations.txt", 2, false);
-  std::stable_sort(contents.color.begin(), contents.color.end(),
-                   [](const Image& a, const Image& b) { return a.stamp < b.stamp; });
-  return contents;
+  for (const mivo::ListedFrame& frame : listing.frames) {
+    const fs::path path = relativePath(folder, frame.image_path);
+    relativePath(folder, frame.depth_path);
+    if (seen.insert(path).second) images.push_back({frame.stamp, path});
+  }
+  return images;
+}
+
+/// The images of an earlier sequence in a folder that is to hold another one.
+void removeImages(const fs::path& folder) {
+  mivo::SequenceListing listing;
+  try {
+    listing = mivo::listSequence(folder.string());
+  } catch (const mivo::Error&) {
+    return;  // it holds none
+  }
+  for (const mivo::ListedFrame& frame : listing.frames) {
+    fs::remove(folder / relativePath(folder, frame.image_path));
+    fs::remove(folder / relativePath(folder, frame.depth_path));
+  }
 }
 
 void prepareFolder(const fs::path& in, const fs::path& out, bool force) {
@@ -86,6 +82,7 @@ void prepareFolder(const fs::path& in, const fs::path& out, bool force) {
     }
     return;
   }
+  removeImages(out);
   for (const char* list : kLists) fs::remove(out / list);
   for (const char* images : kImageFolders) {
     if (!fs::is_directory(out / images)) continue;
@@ -103,12 +100,23 @@ void copyInto(const fs::path& in, const fs::path& out, const fs::path& file) {
   fs::copy_file(in / file, out / file, fs::copy_options::overwrite_existing);
 }
 
-// Everything but the color images: untouched, byte for byte.
-void copyRest(const fs::path& in, const fs::path& out, const Contents& contents,
+/// Everything but the color images: untouched, byte for byte.
+void copyRest(const fs::path& in, const fs::path& out, const std::vector<Image>& color,
               const mivo::SequenceReader& reader) {
-  for (const char* list : kLists) copyInto(in, out, list);
-  for (const fs::path& depth : contents.depth) copyInto(in, out, depth);
-  // The camera may have been known by the folder's name, which the copy does not have.
+  std::set<fs::path> relit;
+  for (const Image& image : color) relit.insert(image.path);
+  constexpr auto kFollow = fs::directory_options::follow_directory_symlink;
+  const fs::recursive_directory_iterator end;
+  for (fs::recursive_directory_iterator entry(in, kFollow); entry != end; ++entry) {
+    if (entry->is_directory()) {
+      if (fs::equivalent(entry->path(), out)) entry.disable_recursion_pending();
+      continue;
+    }
+    const fs::path file = entry->path().lexically_relative(in);
+    if (entry->is_regular_file() && relit.count(file) == 0) copyInto(in, out, file);
+  }
+  // The camera may have been known by the folder's name or by a file beside the folder, which the
+  // copy does not have.
   if (!fs::exists(in / "camera.txt")) {
     mivo::writeCamera((out / "camera.txt").string(), {reader.camera(), reader.depthUnitsPerMeter()},
                       mivo::Overwrite::kYes);
@@ -143,16 +151,16 @@ void run(int argc, char** argv) {
 
   const mivo::SequenceReader reader(in);
   if (!reader.notice().empty()) std::cerr << "relight_sequence: " << reader.notice() << "\n";
-  const Contents contents = listImages(in);
-  const std::size_t count = contents.color.size();
+  const std::vector<Image> color = listColor(in, mivo::listSequence(in));
+  const std::size_t count = color.size();
   prepareFolder(in, out, force);
-  copyRest(in, out, contents, reader);
-  const double duration = contents.color.back().stamp - contents.color.front().stamp;
+  copyRest(in, out, color, reader);
+  const double duration = color.back().stamp - color.front().stamp;
   mivo::Relighting relighting(
       lighting,
       {static_cast<int>(count), count > 1 ? duration / static_cast<double>(count - 1) : 1.0}, seed);
   mivo::ProgressBar progress(count);
-  for (const Image& image : contents.color) {
+  for (const Image& image : color) {
     cv::Mat pixels;
     try {
       pixels = mivo::readImage((fs::path(in) / image.path).string());

@@ -1,94 +1,62 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <algorithm>
-#include <filesystem>
 #include <iostream>
+#include <optional>
 #include <string>
-#include <vector>
 
-#include "io/image_file.h"
-#include "io/table_reader.h"
+#include "io/pose_folder.h"
 #include "mivo/core/error.h"
-#include "mivo/io/camera_file.h"
-#include "mivo/io/trajectory_io.h"
+#include "mivo/io/sequence_reader.h"
 #include "programs/command_line.h"
 #include "programs/progress_bar.h"
 #include "ros/bag_writer.h"
 
 namespace {
 
-namespace fs = std::filesystem;
+using Status = mivo::FrameSource::Status;
 
-struct Image {
-  double stamp;
-  bool is_depth;
-  std::string path;
-};
-
-/// Images of a list of lines with `stamp path` from field `first` on.
-void readList(const fs::path& folder, const char* name, std::size_t fields, std::size_t first,
-              bool is_depth, std::vector<Image>& images) {
-  mivo::TableReader table((folder / name).string());
-  while (table.next()) {
-    if (table.size() != fields) table.refuse("expected " + std::to_string(fields) + " fields");
-    images.push_back({table.number(first), is_depth, (folder / table.text(first + 1)).string()});
-  }
-}
-
-/// All images in the order of their stamps: those of associations.txt, so that the bag has the same
-/// pairs as the folder, or else all of both lists.
-std::vector<Image> readImages(const fs::path& folder) {
-  if (!fs::is_directory(folder)) throw mivo::Error("there is no folder " + folder.string());
-  std::vector<Image> images;
-  if (fs::exists(folder / "associations.txt")) {
-    readList(folder, "associations.txt", 4, 0, false, images);
-    readList(folder, "associations.txt", 4, 2, true, images);
-  } else {
-    readList(folder, "rgb.txt", 2, 0, false, images);
-    readList(folder, "depth.txt", 2, 0, true, images);
-  }
-  std::stable_sort(images.begin(), images.end(),
-                   [](const Image& a, const Image& b) { return a.stamp < b.stamp; });
-  return images;
-}
-
-mivo::SequenceCamera readCameraOf(const fs::path& folder) {
-  if (fs::exists(folder / "camera.txt")) return mivo::readCamera((folder / "camera.txt").string());
-  const auto known = mivo::tumCamera(fs::canonical(folder).filename().string());
-  if (known) return *known;
-  throw mivo::Error(folder.string() + " has no camera.txt");
-}
-
-void writeImages(const std::vector<Image>& images, mivo::BagWriter& bag) {
-  mivo::ProgressBar progress(images.size());
-  std::size_t skipped = 0;
-  for (const Image& image : images) {
-    try {
-      const cv::Mat pixels = mivo::readImage(image.path);
-      if (image.is_depth) {
-        bag.writeDepth(image.stamp, pixels);
-      } else {
-        bag.writeColor(image.stamp, pixels);
-      }
-    } catch (const mivo::Error& error) {
+/// Writes the frames that run_sequence tracks, with the stamps of color and of depth. The stamp of
+/// the first one.
+double writeFrames(mivo::SequenceReader& reader, mivo::BagWriter& bag) {
+  mivo::ProgressBar progress(reader.size());
+  mivo::SequenceImages images;
+  mivo::FrameFault fault;
+  std::optional<double> first_stamp;
+  for (Status status; (status = reader.nextImages(images, fault)) != Status::kEnd;) {
+    if (status == Status::kFrame) {
+      bag.writeColor(images.stamp, images.color);
+      bag.writeDepth(images.depth_stamp, images.depth);
+      if (!first_stamp) first_stamp = images.stamp;
+    } else {
       progress.clear();
-      std::cerr << "skipped: " << image.path << ": " << error.what() << "\n";
-      ++skipped;
+      std::cerr << "skipped: " << fault.text << "\n";
     }
     progress.advance();
   }
-  if (skipped == images.size()) throw mivo::Error("none of the images could be used");
+  if (!first_stamp) throw mivo::Error("none of the images could be used");
+  return *first_stamp;
 }
 
-void writeTruth(const fs::path& folder, const std::vector<Image>& images, mivo::BagWriter& bag) {
-  if (!fs::exists(folder / "groundtruth.txt")) return;
-  const auto first = std::find_if(images.begin(), images.end(),
-                                  [](const Image& image) { return !image.is_depth; });
-  if (first == images.end()) return;
-  const mivo::Trajectory truth = mivo::readTrajectory((folder / "groundtruth.txt").string());
-  if (!bag.writeGroundTruth(truth, first->stamp)) {
+/// Empty when the folder has none.
+mivo::Trajectory readTruth(const std::string& folder) {
+  return mivo::hasPoses(folder) ? mivo::readPoseFolder(folder).poses : mivo::Trajectory();
+}
+
+void writeTruth(const mivo::Trajectory& truth, double first_stamp, mivo::BagWriter& bag) {
+  if (truth.empty()) return;
+  if (!bag.writeGroundTruth(truth, first_stamp)) {
     std::cerr
         << "sequence_to_bag: note: the ground truth has no pose within 20 ms of the first image: "
            "the bag has no transform from world to odom\n";
+  }
+}
+
+void tellWhatWasRead(const mivo::SequenceReader& reader) {
+  if (!reader.notice().empty()) {
+    std::cerr << "sequence_to_bag: note: " << reader.notice() << "\n";
+  }
+  for (const auto& [reason, count] : reader.leftOut()) {
+    std::cerr << "sequence_to_bag: note: left out (" << reason << "): " << count << "\n";
   }
 }
 
@@ -114,12 +82,15 @@ void run(int argc, char** argv) {
     throw mivo::UsageError("--layout: '" + layout_name +
                            "' is not one of tum, openni2, rtabmap, realsense");
   }
-  const std::vector<Image> images = readImages(folder);
-  mivo::BagWriter bag(path, mivo::bagLayout(layout_name), readCameraOf(folder),
+  mivo::SequenceReader reader(folder);
+  tellWhatWasRead(reader);
+  const mivo::Trajectory truth = readTruth(folder);
+  mivo::BagWriter bag(path, mivo::bagLayout(layout_name),
+                      {reader.camera(), reader.depthUnitsPerMeter()},
                       compressed ? mivo::BagImages::kCompressed : mivo::BagImages::kRaw,
                       force ? mivo::Overwrite::kYes : mivo::Overwrite::kNo);
-  writeTruth(folder, images, bag);
-  writeImages(images, bag);
+  const double first_stamp = writeFrames(reader, bag);
+  writeTruth(truth, first_stamp, bag);
 }
 
 }  // namespace

@@ -79,6 +79,34 @@ cv::Mat toMeters(const cv::Mat& depth, double unit) {
   return meters;
 }
 
+cv::Mat withoutAlpha(const cv::Mat& image) {
+  if (image.channels() != 4) return image;
+  cv::Mat color;
+  cv::cvtColor(image, color, cv::COLOR_BGRA2BGR);
+  return color;
+}
+
+/// Under which an image in the order blue, green, red is stored; empty: none.
+std::string encodingOf(const cv::Mat& image) {
+  switch (image.type()) {
+    case CV_8UC1:
+      return encodings::MONO8;
+    case CV_16UC1:
+      return encodings::MONO16;
+    case CV_8UC3:
+      return encodings::RGB8;
+    case CV_16UC3:
+      return encodings::RGB16;
+    default:
+      return {};
+  }
+}
+
+/// Of the channels of a PNG, as image_transport names it.
+std::string storedOrder(const std::string& encoding) {
+  return encoding == encodings::RGB8 ? "bgr8" : encoding == encodings::RGB16 ? "bgr16" : "";
+}
+
 }  // namespace
 
 BagWriter::BagWriter(const std::string& path, const BagLayout& layout, const SequenceCamera& camera,
@@ -144,14 +172,12 @@ void BagWriter::checkImage(const cv::Mat& image, const char* what) const {
               std::to_string(camera_.camera.width) + " x " + std::to_string(camera_.camera.height));
 }
 
-void BagWriter::writeColor(double stamp, const cv::Mat& image) {
-  checkImage(image, "the color image");
-  const std::string encoding = image.type() == CV_8UC1    ? encodings::MONO8
-                               : image.type() == CV_16UC1 ? encodings::MONO16
-                               : image.type() == CV_8UC3  ? encodings::RGB8
-                                                          : std::string();
+void BagWriter::writeColor(double stamp, const cv::Mat& with_alpha) {
+  checkImage(with_alpha, "the color image");
+  const cv::Mat image = withoutAlpha(with_alpha);
+  const std::string encoding = encodingOf(image);
   if (encoding.empty()) {
-    throw Error("the color image is neither gray nor has it three channels of 8 bits");
+    throw Error("the color image has neither one channel nor three, or not 8 or 16 bits");
   }
   if (!has_static_) {
     writeStatic(stamp, frames::kCameraLink, layout_.optical_frame, opticalInLink());
@@ -164,12 +190,11 @@ void BagWriter::writeColor(double stamp, const cv::Mat& image) {
   write(layout_.topics.camera_info, stamp, camera_info_);
   if (images_ == BagImages::kCompressed) {
     write(layout_.topics.color + "/compressed", stamp,
-          toPng(header, image,
-                encoding + "; png compressed " + (image.channels() == 3 ? "bgr8" : ""), 0));
+          toPng(header, image, encoding + "; png compressed " + storedOrder(encoding), 0));
     return;
   }
   cv::Mat stored = image;
-  if (encoding == encodings::RGB8) cv::cvtColor(image, stored, cv::COLOR_BGR2RGB);
+  if (image.channels() == 3) cv::cvtColor(image, stored, cv::COLOR_BGR2RGB);
   write(layout_.topics.color, stamp, toRaw(header, stored, encoding));
 }
 

@@ -27,8 +27,8 @@ class BagWriter {
   BagWriter(const std::string& path, const BagLayout& layout, const SequenceCamera& camera,
             BagImages images, Overwrite overwrite);
 
-  /// Writes the image and the calibration. `image`: CV_8UC1, CV_16UC1, or CV_8UC3 in the order
-  /// blue, green, red. Throws Error for another type, a wrong size, or when the disk is full.
+  /// Writes the image and the calibration. `image`: 8 or 16 bits, gray or in the order blue, green,
+  /// red; alpha is left out. Throws Error for another type, a wrong size, or when the disk is full.
   void writeColor(double stamp, const cv::Mat& image);
 
   /// `depth`: CV_16UC1 in the camera's depth units. Layouts with integer depth hold millimeters:

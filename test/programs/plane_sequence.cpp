@@ -3,12 +3,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <iomanip>
+#include <sstream>
 
+#include "io/image_file.h"
 #include "mivo/core/se3.h"
 #include "mivo/io/trajectory_io.h"
 
 namespace mivo {
 namespace {
+
+namespace fs = std::filesystem;
 
 // The plane n . X = d of the world, meters: slanted, so that depth constrains all six directions of
 // motion.
@@ -67,6 +75,28 @@ void writePlaneSequence(const std::string& folder, int frames) {
     renderPlane(planePose(i), image, depth);
     writer.writeFrame(planeStamp(i), image, planeStamp(i), depth);
     writer.writePose({planeStamp(i), planePose(i)});
+  }
+}
+
+void writeSun3dPlaneSequence(const std::string& folder, int frames) {
+  for (const char* images : {"image", "depth"}) fs::create_directories(fs::path(folder) / images);
+  const Camera camera = planeCamera().camera;
+  std::ofstream(fs::path(folder) / "intrinsics.txt")
+      << camera.fx << " 0 " << camera.cx << "\n0 " << camera.fy << ' ' << camera.cy << "\n0 0 1\n";
+  cv::Mat image;
+  cv::Mat meters;
+  for (int i = 0; i < frames; ++i) {
+    renderPlane(planePose(i), image, meters);
+    cv::Mat depth;
+    meters.convertTo(depth, CV_16U, planeCamera().depth_units_per_meter);
+    depth.forEach<std::uint16_t>([](std::uint16_t& value, const int*) {
+      value = static_cast<std::uint16_t>(value << 3 | value >> 13);
+    });
+    std::ostringstream name;
+    name << std::setfill('0') << std::setw(7) << i + 1 << '-' << std::setw(12)
+         << std::lround(i * 1e6 / 30.0) << ".png";
+    writePng((fs::path(folder) / "image" / name.str()).string(), image, Overwrite::kNo);
+    writePng((fs::path(folder) / "depth" / name.str()).string(), depth, Overwrite::kNo);
   }
 }
 

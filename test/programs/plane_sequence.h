@@ -24,6 +24,10 @@ void renderPlane(const Eigen::Isometry3d& T_world_camera, cv::Mat& image, cv::Ma
 /// Writes a sequence folder of `frames` frames with its ground truth.
 void writePlaneSequence(const std::string& folder, int frames);
 
+/// The same as SUN3D lays it out, without the truth: times in the names, depth rotated by three
+/// bits.
+void writeSun3dPlaneSequence(const std::string& folder, int frames);
+
 /// Largest distance (m) of the poses in a trajectory file from the truth, seen from frame
 /// `first_frame`, where the estimate starts at the identity.
 double largestPlaneError(const std::string& trajectory, int first_frame = 0);

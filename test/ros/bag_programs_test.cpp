@@ -4,7 +4,10 @@
 #include <unistd.h>
 
 #include <cstdlib>
+#include <filesystem>
+#include <fstream>
 
+#include "mivo/io/trajectory_io.h"
 #include "programs/plane_sequence.h"
 #include "programs/program_fixture.h"
 
@@ -52,6 +55,36 @@ TEST_F(BagProgramTest, BagAndFolderGiveTheSameBits) {
     makeBag({"--layout", layout, "--compressed", "--force"});
     EXPECT_EQ(expected, trackBag()) << layout << ", compressed";
   }
+}
+
+TEST_F(BagProgramTest, FoldersOfOtherLayoutsBecomeBagsOfTheSamePoses) {
+  const std::string sun3d = folder_ / "sun3d";
+  writeSun3dPlaneSequence(sun3d, kFrames);
+  const ProcessResult result = run("sequence_to_bag", {sun3d, bag_, "--layout", "openni2"});
+  ASSERT_EQ(0, result.exit_code) << result.errors;
+  EXPECT_NE(result.errors.find("sequence_to_bag: note: " + sun3d + " is laid out as SUN3D"),
+            std::string::npos)
+      << result.errors;
+  trackFolder(sun3d);
+  trackBag();
+  const Trajectory expected = readTrajectory(folder_ / "folder.txt");
+  const Trajectory poses = readTrajectory(folder_ / "bag.txt");
+  ASSERT_EQ(poses.size(), std::size_t{kFrames});
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    EXPECT_EQ(poses[i].stamp, expected[i].stamp);
+    // A bag has whole nanoseconds: the times between frames differ by some.
+    EXPECT_TRUE(poses[i].pose.isApprox(expected[i].pose, 1e-6)) << i;
+  }
+}
+
+TEST_F(BagProgramTest, ImagesWithoutAPartnerAreLeftOutOfTheBagAndTold) {
+  std::ofstream(sequence_ + "/rgb.txt", std::ios::app) << "200.0 rgb/none.png\n";
+  std::filesystem::remove(sequence_ + "/associations.txt");
+  const ProcessResult result = run("sequence_to_bag", {sequence_, bag_});
+  ASSERT_EQ(0, result.exit_code) << result.errors;
+  EXPECT_EQ(result.errors,
+            "sequence_to_bag: note: left out (color image without a partner within 20 ms): 1\n");
+  EXPECT_EQ(trackFolder(sequence_), trackBag());
 }
 
 TEST_F(BagProgramTest, ABagComesBackAsTheSameFolder) {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <map>
 #include <memory>
+#include <opencv2/core/mat.hpp>
 #include <string>
 
 #include "mivo/io/camera_file.h"
@@ -11,6 +12,14 @@
 #include "mivo/io/frame_source.h"
 
 namespace mivo {
+
+/// The images of one frame, before color becomes gray.
+struct SequenceImages {
+  double stamp = 0.0;        ///< s, of color
+  double depth_stamp = 0.0;  ///< s
+  cv::Mat color;             ///< channels and bits as stored, of the size of depth
+  cv::Mat depth;             ///< CV_16UC1, in depth units, 0: no reading
+};
 
 /// A recording as a folder in the layout of the TUM RGB-D benchmark:
 ///
@@ -42,6 +51,9 @@ class SequenceReader : public FrameSource {
   /// its images is missing, damaged, of the wrong type or of the wrong size.
   Status next(Frame& frame, FrameFault& fault) override;
 
+  /// As next(), for programs that copy a recording.
+  Status nextImages(SequenceImages& images, FrameFault& fault);
+
   double depthUnitsPerMeter() const { return camera_.depth_units_per_meter; }
 
   std::string depthUnit() const override;
@@ -50,6 +62,8 @@ class SequenceReader : public FrameSource {
 
  private:
   class Images;  // read, decoded, brought to one size
+  template <typename Read>
+  Status readNext(const Read& read, FrameFault& fault);
 
   SequenceCamera camera_;
   std::string camera_file_;  // where the camera comes from
