@@ -19,6 +19,9 @@ constexpr double kFarFromCenter = 0.2;
 constexpr double kSameScale = 0.1;
 // Focal lengths of one lens differ by a few percent at most.
 constexpr double kLargestAspect = 1.5;
+// pixels; with shorter focal lengths a pixel spans 2 cm and more at 2 m, and poses drift by 1 to 5
+// cm within a second (doc/inputs.md, small images).
+constexpr double kCoarse = 90.0;
 constexpr double kRounding = 1e-3;  // pixels
 
 /// How many times larger the images are whose center is the principal point.
@@ -84,6 +87,18 @@ std::string doubtOf(const Camera& c) {
   if (std::max(c.fx / c.fy, c.fy / c.fx) > kLargestAspect) {
     text << "the focal lengths " << c.fx << " and " << c.fy << " differ by more than a lens' do";
   }
+  return text.str();
+}
+
+std::string describeCoarseness(const Camera& c) {
+  constexpr double kDistance = 2.0;  // m
+  constexpr double kMillimeters = 1000.0;
+  const double focal_length = std::max(c.fx, c.fy);
+  if (!(focal_length < kCoarse)) return {};
+  std::ostringstream text;
+  text << "images of " << c.width << " x " << c.height << " pixels are small: a pixel spans "
+       << std::lround(kMillimeters * kDistance / focal_length)
+       << " mm at 2 m, and the pose drifts by centimeters within a second: record larger ones";
   return text.str();
 }
 

@@ -15,6 +15,10 @@ std::string findCameraFault(const Camera& camera);
 /// the center, as when the calibration is for images of another size, or focal lengths that differ.
 std::string doubtOf(const Camera& camera);
 
+/// What errors are to be expected, and what to do, when the images are so small that poses are
+/// wrong by centimeters; otherwise an empty text.
+std::string describeCoarseness(const Camera& camera);
+
 /// Whether two cameras differ by no more than the rounding of numbers on their way: by less than a
 /// thousandth of a pixel everywhere in the image.
 bool isSameButForRounding(const Camera& a, const Camera& b);

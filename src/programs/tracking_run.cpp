@@ -7,6 +7,7 @@
 #include <iostream>
 #include <opencv2/core/utility.hpp>
 
+#include "core/camera_doubt.h"
 #include "core/execution/cpu_clock.h"
 #include "io/numbered_path.h"
 #include "mivo/core/odometry.h"
@@ -157,7 +158,9 @@ TrackingSummary trackFrames(FrameSource& source, const TrackingOptions& options)
 }
 
 void runTracking(const std::string& program, FrameSource& source, const TrackingOptions& options) {
-  if (!source.notice().empty()) std::cerr << program << ": note: " << source.notice() << "\n";
+  for (const std::string& notice : {source.notice(), describeCoarseness(source.camera())}) {
+    if (!notice.empty()) std::cerr << program << ": note: " << notice << "\n";
+  }
   const TrackingSummary summary = trackFrames(source, options);
   print(std::cout, summary);
   const DepthParameters& depth = options.parameters.depth;

@@ -60,9 +60,11 @@ void InputWarnings::lookAtParent(TransformSource& transforms) {
 
 void InputWarnings::lookAtCamera(const Camera& camera) {
   if (has_warned_of_camera_) return;
-  const std::string doubt = doubtOf(camera);
-  has_warned_of_camera_ = !doubt.empty();
-  if (has_warned_of_camera_) ROS_WARN("camera_info: %s", doubt.c_str());
+  for (const std::string& doubt : {doubtOf(camera), describeCoarseness(camera)}) {
+    if (doubt.empty()) continue;
+    has_warned_of_camera_ = true;
+    ROS_WARN("camera_info: %s", doubt.c_str());
+  }
 }
 
 void InputWarnings::lookAtDepth(const DepthSample& depth) {

@@ -98,6 +98,20 @@ TEST(CameraDoubtTest, FocalLengthsThatDifferAreDoubted) {
   EXPECT_EQ(doubtOf(withFocalLengths(525.0, 500.0)), "");
 }
 
+TEST(CameraDoubtTest, SmallImagesAreTold) {
+  const Camera small{80, 60, 65.625, 65.625, 39.5, 29.5, {}};
+  EXPECT_EQ(describeCoarseness(small),
+            "images of 80 x 60 pixels are small: a pixel spans 30 mm at 2 m, and the pose drifts "
+            "by centimeters within a second: record larger ones");
+  const auto with = [](double focal_length) {
+    return describeCoarseness(Camera{120, 90, focal_length, focal_length, 59.5, 44.5, {}});
+  };
+  EXPECT_EQ(with(90.0), "");
+  EXPECT_NE(with(89.9), "");
+  const Camera depth_sensor{176, 144, 210.0, 210.0, 87.5, 71.5, {}};
+  EXPECT_EQ(describeCoarseness(depth_sensor), "");
+}
+
 TEST(CameraDoubtTest, RoundingIsNoDifference) {
   Camera lens = kXtion;
   lens.distortion = {0.2624, -0.9531, -0.0054, 0.0026, 1.1633};

@@ -266,6 +266,10 @@ def with_camera(line):
     return lambda folder: folder.plain(camera_line=line)
 
 
+def small(folder):
+    folder.plain(camera=Camera(80, 60, 70.0))
+
+
 CAMERAS = [
     ("fy is negative (ICL-NUIM's y axis)", with_camera("320 240 280 -280 159.5 119.5 1000\n")),
     ("fx = fy = 1", with_camera("320 240 1 1 159.5 119.5 1000\n")),
@@ -274,6 +278,7 @@ CAMERAS = [
     ("calibrated at twice the size", with_camera("320 240 560 560 319.5 239.5 1000\n")),
     ("calibrated at half the size", with_camera("320 240 140 140 79.5 59.5 1000\n")),
     ("calibrated at half the size, and says so", with_camera("160 120 140 140 79.5 59.5 1000\n")),
+    ("images of 80 x 60 pixels", small),
     ("six numbers", with_camera("320 240 280 280 159.5 119.5\n")),
 ]
 
