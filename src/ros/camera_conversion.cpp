@@ -44,7 +44,8 @@ Distortion toDistortion(const sensor_msgs::CameraInfo& message) {
   if (message.D.size() > most && !std::all_of(message.D.begin() + static_cast<std::ptrdiff_t>(most),
                                               message.D.end(), isZero)) {
     refuseLens("a lens model '" + model + "' with " + std::to_string(message.D.size()) +
-               " coefficients");
+               " coefficients, of which those from number " + std::to_string(most + 1) +
+               " on are not 0" + (equidistant ? "" : " (thin prism, tilt)"));
   }
   std::array<double, kMaxCoefficients> d{};
   std::copy_n(message.D.begin(), std::min(message.D.size(), most), d.begin());
@@ -80,6 +81,17 @@ void setPinhole(Camera& camera, const double* matrix, int columns, const char* n
 
 /// Size and pinhole of a region, in pixels of the whole sensor.
 void cutOut(const sensor_msgs::RegionOfInterest& region, Camera& camera) {
+  const auto isOut = [](std::uint32_t offset, std::uint32_t length, int size) {
+    return std::uint64_t{offset} + length > static_cast<std::uint64_t>(size);
+  };
+  if (isOut(region.x_offset, region.width, camera.width) ||
+      isOut(region.y_offset, region.height, camera.height)) {
+    throw Error("camera_info: the roi of " + std::to_string(region.width) + " x " +
+                std::to_string(region.height) + " pixels at (" + std::to_string(region.x_offset) +
+                ", " + std::to_string(region.y_offset) + ") lies outside of its " +
+                std::to_string(camera.width) + " x " + std::to_string(camera.height) +
+                " pixels, which are those of the whole sensor");
+  }
   camera.width = static_cast<int>(region.width);
   camera.height = static_cast<int>(region.height);
   camera.cx -= region.x_offset;

@@ -123,6 +123,19 @@ TEST(CameraConversionTest, RegionOfInterestShiftsThePrincipalPoint) {
   EXPECT_DOUBLE_EQ(205.3, camera.cy);
 }
 
+TEST(CameraConversionTest, ARegionBeyondTheSensorIsRefused) {
+  sensor_msgs::CameraInfo info = toCameraInfo(makeCamera());
+  info.roi.x_offset = 160;
+  info.roi.width = 480;
+  info.roi.height = 480;
+  info.roi.do_rectify = 1;
+  EXPECT_EQ(480, toCamera(info, false).width);
+  info.roi.x_offset = 161;
+  EXPECT_ERROR(toCamera(info, false), "the roi of 480 x 480 pixels at (161, 0) lies outside");
+  info.roi.x_offset = std::numeric_limits<std::uint32_t>::max();  // the sum must not wrap around
+  EXPECT_ERROR(toCamera(info, false), "lies outside of its 640 x 480 pixels");
+}
+
 TEST(CameraConversionTest, BinnedPixelsAreTheMeanOfTheirs) {
   sensor_msgs::CameraInfo info = toCameraInfo(makeCamera());
   info.binning_x = info.binning_y = 1;
@@ -165,6 +178,49 @@ TEST(CameraConversionTest, UnusableCalibrationsAreRefused) {
   info = toCameraInfo(makeCamera());
   info.K = {772.87, 0.0, 319.5, 0.0, 770.0, 239.5, 0.0, 6.9e-310, 2.5e-323};
   EXPECT_ERROR(toCamera(info, false), "K has a last row that is not 0 0 1");
+}
+
+TEST(CameraConversionTest, CoefficientsThatAreNotModeledAreRefused) {
+  sensor_msgs::CameraInfo info = toCameraInfo(makeCamera());
+  info.distortion_model = "rational_polynomial";
+  for (const std::size_t count : {12U, 14U}) {
+    info.D.resize(8);
+    info.D.resize(count, 0.0);
+    const Camera camera = toCamera(info, false);
+    EXPECT_EQ(makeCamera(), camera);
+    info.D.back() = 1e-3;
+    EXPECT_ERROR(toCamera(info, false), "with " + std::to_string(count) +
+                                            " coefficients, of which those from number 9 on are "
+                                            "not 0 (thin prism, tilt), expected");
+  }
+  info.distortion_model = "equidistant";
+  EXPECT_ERROR(toCamera(info, false), "from number 5 on are not 0, expected");
+}
+
+TEST(CameraConversionTest, FewCoefficientsAreFollowedByZeros) {
+  sensor_msgs::CameraInfo info = toCameraInfo(makeCamera());
+  info.D = {0.1};
+  const Camera camera = toCamera(info, false);
+  EXPECT_EQ(camera.distortion.k1, 0.1);
+  EXPECT_EQ(camera.distortion.k2, 0.0);
+  EXPECT_EQ(camera.distortion.p1, 0.0);
+}
+
+TEST(CameraConversionTest, FocalLengthsThatAreNegativeNanOrOnlyInPAreRefused) {
+  for (const double fx : {-525.0, 0.0, std::numeric_limits<double>::quiet_NaN()}) {
+    sensor_msgs::CameraInfo info = toCameraInfo(makeCamera());
+    info.K[0] = fx;
+    EXPECT_ERROR(toCamera(info, false), "K has no positive focal length");
+  }
+  sensor_msgs::CameraInfo only_p = toCameraInfo(makeCamera());
+  only_p.K.fill(0.0);
+  EXPECT_ERROR(toCamera(only_p, false), "K has no positive focal length");
+  EXPECT_EQ(toCamera(only_p, true).fx, makeCamera().fx);
+  sensor_msgs::CameraInfo only_k = toCameraInfo(makeCamera());
+  only_k.P.fill(0.0);
+  EXPECT_ERROR(toCamera(only_k, true), "P has no positive focal length");
+  only_k.width = 0;
+  EXPECT_ERROR(toCamera(only_k, false), "0 x 480 pixels");
 }
 
 TEST(CameraConversionTest, CalibrationsThatCannotBeRightAreRefused) {
