@@ -14,13 +14,13 @@ namespace mivo {
 
 namespace fs = std::filesystem;
 
-void refuseExisting(const std::string& path, Overwrite overwrite) {
+void refuseExisting(const std::string& path, Overwrite overwrite, const char* remedy) {
   std::error_code
       ignored;  // what cannot be looked at will fail, with its reason, when it is created
   const fs::file_status status = fs::status(path, ignored);
   if (fs::is_directory(status)) throw Error("cannot write " + path + ": it is a folder");
   if (overwrite == Overwrite::kNo && fs::exists(status)) {
-    throw Error(path + " exists: choose another name, or --force to replace it");
+    throw Error(path + " exists: " + remedy);
   }
 }
 

@@ -35,9 +35,10 @@ void TrajectoryWriter::write(const StampedPose& pose) {
   file_.write(trajectoryLine(pose));
 }
 
-void writeTrajectory(const std::string& path, const Trajectory& trajectory, Overwrite overwrite) {
+void writeTrajectory(const std::string& path, const Trajectory& trajectory, Overwrite overwrite,
+                     const char* remedy) {
   namespace fs = std::filesystem;
-  refuseExisting(path, overwrite);
+  refuseExisting(path, overwrite, remedy);
   const std::string part = path + ".part";
   std::error_code error;
   try {

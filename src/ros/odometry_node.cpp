@@ -272,7 +272,7 @@ std::string OdometryNode::saveTrajectory(const std::string& path, bool force, st
     full_path = trajectory_.pathToSave(path, overwrite);
     trajectory = trajectory_.poses();
   }
-  writeTrajectory(full_path, trajectory, overwrite);
+  writeTrajectory(full_path, trajectory, overwrite, TrajectoryRecorder::kForceField);
   poses = trajectory.size();
   return full_path;
 }

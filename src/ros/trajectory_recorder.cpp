@@ -77,7 +77,7 @@ std::string TrajectoryRecorder::pathToSave(const std::string& path, Overwrite ov
     throw Error(full_path + " is the trajectory_file, which is being written: choose another name");
   }
   if (overwrite == Overwrite::kNo) {
-    requireNew(full_path, "choose another name, or set force to replace it");
+    requireNew(full_path, kForceField);
   }
   return full_path;
 }

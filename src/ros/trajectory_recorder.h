@@ -25,6 +25,9 @@ class TrajectoryRecorder {
   /// the next one is name_2.txt after name.txt. Throws Error when it cannot be written.
   void startAnew();
 
+  /// What a caller of the service can do about a file that exists.
+  static constexpr const char* kForceField = "choose another name, or set force to replace it";
+
   /// The file for a path inside of trajectory_folder. Throws Error when there is no pose yet, when
   /// the file exists and may not be replaced, or is the one that is being written.
   std::string pathToSave(const std::string& path, Overwrite overwrite) const;

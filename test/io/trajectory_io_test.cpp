@@ -58,8 +58,10 @@ TEST(TrajectoryIoTest, AWholeTrajectoryIsWrittenAtOnceOrNotAtAll) {
   const std::string written = contentOf(path);
   EXPECT_EQ(written, "# stamp tx ty tz qx qy qz qw\n" + trajectoryLine(poses[0]) +
                          trajectoryLine(poses[0]) + trajectoryLine(poses[0]));
-  EXPECT_NE(errorText([&] { writeTrajectory(path, poses, Overwrite::kNo); }).find("exists"),
-            std::string::npos);
+  EXPECT_EQ(errorText([&] { writeTrajectory(path, poses, Overwrite::kNo); }),
+            path + " exists: choose another name, or --force to replace it");
+  EXPECT_EQ(errorText([&] { writeTrajectory(path, poses, Overwrite::kNo, "set force"); }),
+            path + " exists: set force");
   {
     const FullDisk disk(written.size());
     EXPECT_NE(errorText([&] {

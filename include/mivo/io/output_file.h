@@ -9,8 +9,13 @@ namespace mivo {
 /// Whether a file that exists may be replaced.
 enum class Overwrite { kNo, kYes };
 
-/// Throws Error when `path` exists and may not be replaced, or is a folder.
-void refuseExisting(const std::string& path, Overwrite overwrite);
+/// What a caller of a program can do about a file that exists.
+constexpr const char* kForceOption = "choose another name, or --force to replace it";
+
+/// Throws Error, which ends with `remedy`, when `path` exists and may not be replaced; also when it
+/// is a folder.
+void refuseExisting(const std::string& path, Overwrite overwrite,
+                    const char* remedy = kForceOption);
 
 /// A file written piece by piece. A piece is with the system when `write` returns: neither the end
 /// of the process nor a full disk takes it back.

@@ -35,7 +35,8 @@ class TrajectoryWriter {
 };
 
 /// Writes a trajectory at once: under its name the file is complete or as it was before. Throws
-/// Error as TrajectoryWriter does.
-void writeTrajectory(const std::string& path, const Trajectory& trajectory, Overwrite overwrite);
+/// Error as TrajectoryWriter does; for a file that exists it ends with `remedy`.
+void writeTrajectory(const std::string& path, const Trajectory& trajectory, Overwrite overwrite,
+                     const char* remedy = kForceOption);
 
 }  // namespace mivo
