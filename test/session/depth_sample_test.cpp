@@ -59,6 +59,36 @@ TEST(ExamineDepthStorageTest, RotatedBitsAreSeen) {
   EXPECT_TRUE(rotated_right.is_rotated_right);
 }
 
+/// 40 x 30 neighbors that are looked at, of which the first ones jump unless they are rotated.
+Frame frameWithJumps(int jumps) {
+  constexpr std::uint16_t kLeft = 2000 >> 3;
+  constexpr std::uint16_t kRight = kLeft | 1 << 13;  // 2001, rotated to the right
+  Frame frame;
+  frame.depth = cv::Mat(240, 320, CV_16UC1, cv::Scalar(kLeft));
+  for (int i = 0; i < jumps; ++i) {
+    frame.depth.at<std::uint16_t>(i / 40 * 8, i % 40 * 8 + 1) = kRight;
+  }
+  return frame;
+}
+
+TEST(ExamineDepthStorageTest, AFifthOfTheNeighborsHasToJump) {
+  EXPECT_FALSE(examineDepthStorage(frameWithJumps(240)).is_rotated_right);
+  EXPECT_TRUE(examineDepthStorage(frameWithJumps(241)).is_rotated_right);
+}
+
+TEST(ExamineDepthStorageTest, JumpsThatRotationDoesNotHalveAreEdges) {
+  // 2.5 m beside 2 m: a jump as it is and rotated, but for those that rotation takes away.
+  const auto with = [](int edges) {
+    Frame frame = frameWithJumps(600);
+    for (int i = 0; i < edges; ++i) {
+      frame.depth.at<std::uint16_t>(i / 40 * 8, i % 40 * 8 + 1) = 2504 >> 3;
+    }
+    return frame;
+  };
+  EXPECT_TRUE(examineDepthStorage(with(299)).is_rotated_right);
+  EXPECT_FALSE(examineDepthStorage(with(300)).is_rotated_right);
+}
+
 TEST(ExamineDepthStorageTest, CoarseDepthIsSeen) {
   const auto eight_levels = [](int depth) { return (depth + 624) / 625 * 625; };
   EXPECT_NEAR(examineDepthStorage(floorThrough(eight_levels)).coarse_step, 0.625, 1e-12);
