@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iomanip>
+#include <opencv2/core.hpp>
 #include <sstream>
 
 #include "io/image_file.h"
