@@ -217,12 +217,15 @@ void LevelAligner::alignByDepthAlone(GeometricTerm& geometry) {
   judgeDepth(geometry);
 }
 
-/// A dark image is mostly noise, which leaves directions open that depth alone sees.
-void LevelAligner::leaveOutDarkImage(GeometricTerm& geometry, const Eigen::Isometry3d& start) {
+/// A dark image is mostly noise, which leaves directions open that depth alone sees. Whether depth
+/// sees all of them; otherwise nothing is changed.
+bool LevelAligner::leaveOutDarkImage(GeometricTerm& geometry, const Eigen::Isometry3d& start) {
   const Alignment with_image = alignment_;
   alignment_.T_live_ref = start;
   alignByDepthAlone(geometry);
-  if (alignment_.has_open_directions) alignment_ = with_image;
+  if (!alignment_.has_open_directions) return true;
+  alignment_ = with_image;
+  return false;
 }
 
 SsdTerm LevelAligner::intensityTerm(std::size_t num_points) const {
@@ -267,7 +270,7 @@ void LevelAligner::alignBySsd() {
   if (geometry != nullptr) judgeDepth(*geometry);
   if (alignment_.sees_image && !shows_enough && alignment_.has_open_directions &&
       geometry != nullptr) {
-    leaveOutDarkImage(*geometry, start);
+    alignment_.sees_image = !leaveOutDarkImage(*geometry, start);
     term.evaluate(alignment_.T_live_ref);
   }
   // If the image shows nothing, or only white, the points of the depth term count.

@@ -52,7 +52,7 @@ class LevelAligner {
   void alignBySsd();
   Stage alignLeadingPoints();
   void alignByDepthAlone(GeometricTerm& geometry);
-  void leaveOutDarkImage(GeometricTerm& geometry, const Eigen::Isometry3d& start);
+  bool leaveOutDarkImage(GeometricTerm& geometry, const Eigen::Isometry3d& start);
   void judgeDepth(const GeometricTerm& geometry);
   void minimizeTerms(const LevelTerms& terms, Stage stage = Stage::kOnly);
   void holdOpenDirections(const SsdTerm* intensities, bool has_prior);
