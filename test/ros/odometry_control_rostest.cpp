@@ -292,9 +292,3 @@ TEST_F(NodeTest, UnloadingWhileFramesWaitEndsCleanly) {
 
 }  // namespace
 }  // namespace mivo
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "odometry_control_rostest");
-  return RUN_ALL_TESTS();
-}

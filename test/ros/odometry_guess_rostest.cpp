@@ -161,9 +161,3 @@ TEST_F(GuessTest, WheelsThatAreResetAreNotBelieved) {
 
 }  // namespace
 }  // namespace mivo
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "odometry_guess_rostest");
-  return RUN_ALL_TESTS();
-}

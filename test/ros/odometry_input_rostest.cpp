@@ -310,9 +310,3 @@ TEST_F(NodeTest, UnknownTransportsLeaveTheNodeIdleAndTheManagerAlive) {
 
 }  // namespace
 }  // namespace mivo
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "odometry_input_rostest");
-  return RUN_ALL_TESTS();
-}

@@ -168,9 +168,3 @@ TEST_F(LifetimeTest, ALongRunHoldsNothingMore) {
 
 }  // namespace
 }  // namespace mivo
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "odometry_lifetime_rostest");
-  return RUN_ALL_TESTS();
-}

@@ -186,9 +186,3 @@ TEST_F(NodeTest, WhenAskedForLostFramesAreUncertain) {
 
 }  // namespace
 }  // namespace mivo
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "odometry_rostest");
-  return RUN_ALL_TESTS();
-}

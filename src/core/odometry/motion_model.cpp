@@ -35,18 +35,19 @@ void MotionModel::add(const MeasuredPose& pose, const FrameClock& clock,
   last_ = pose;
   const bool is_first = !has_pose_;
   has_pose_ = true;
-  const double seconds = periods(clock, parameters) * clock.period(parameters);
+  const double num_periods = periods(clock, parameters);
+  const double period = clock.period(parameters);
+  const double seconds = num_periods * period;
   const bool is_measured = has_velocity_ && seconds > 0.0;
   if (is_measured) {
-    filter_.add({motion_, covariance_before + pose.alignment_covariance, periods(clock, parameters),
-                 seconds, pose.has_open_directions},
+    filter_.add({motion_, covariance_before + pose.alignment_covariance, num_periods, seconds,
+                 pose.has_open_directions},
                 parameters);
   }
   if (pose.has_open_directions && !is_first) return;
   seen_ = pose;
   if (!is_measured) filter_.reset(parameters);
   const Vector6& twist = filter_.twistPerPeriod();
-  const double period = clock.period(parameters);
   seen_speed_ = is_measured ? twist.head<3>().norm() / period : 0.0;
   seen_turn_rate_ = is_measured ? twist.tail<3>().norm() / period : 0.0;
 }
