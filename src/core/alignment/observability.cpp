@@ -24,7 +24,7 @@ constexpr double kPartOfDirection = 0.4;
 constexpr double kLeastCurvature = 2.5e-5;
 // What looks as if it were seen along an open direction correlates about so much with what is seen
 // across it.
-constexpr double kCorrelationOfUnconfirmed = 0.1;
+constexpr double kCorrelationOfUnconfirmed = 0.15;
 
 using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
 using Vector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 6, 1>;
@@ -184,16 +184,16 @@ Matrix6 Observability::informationOfSeen() const {
   }
   if (count == 0) return Matrix6::Zero();
   seen.conservativeResize(6, count);
-  const Matrix covariance = seen.transpose() * scaledCovarianceOfSeen() * seen;
+  const Matrix covariance =
+      seen.transpose() *
+      (scaledCovarianceOfSeen() + scaledCovarianceOfDirections(expected_covariance_)) * seen;
   const Matrix information = covariance.ldlt().solve(Matrix(Matrix::Identity(count, count)));
   const Matrix6 scaled = seen * information * seen.transpose();
   const Vector6 inverse = scale_.cwiseInverse();
   return inverse.asDiagonal() * scaled * inverse.asDiagonal();
 }
 
-Matrix6 Observability::covarianceOfDirections(const Matrix6& covariance) const {
-  const Vector6 inverse = scale_.cwiseInverse();
-  const Matrix6 scaled = inverse.asDiagonal() * covariance * inverse.asDiagonal();
+Matrix6 Observability::scaledCovarianceOfDirections(const Matrix6& scaled) const {
   double wrongly_seen = 0.0;
   for (int i = 0; i < 6; ++i) {
     if (!is_open_[static_cast<std::size_t>(i)]) continue;
@@ -205,8 +205,13 @@ Matrix6 Observability::covarianceOfDirections(const Matrix6& covariance) const {
     if (is_open_[static_cast<std::size_t>(i)]) continue;
     of_seen += wrongly_seen / curvature_[i] * axes_.col(i) * axes_.col(i).transpose();
   }
-  return kCorrelationOfUnconfirmed * kCorrelationOfUnconfirmed * scale_.asDiagonal() * of_seen *
-         scale_.asDiagonal();
+  return kCorrelationOfUnconfirmed * kCorrelationOfUnconfirmed * of_seen;
+}
+
+Matrix6 Observability::covarianceOfDirections(const Matrix6& covariance) const {
+  const Vector6 inverse = scale_.cwiseInverse();
+  const Matrix6 scaled = inverse.asDiagonal() * covariance * inverse.asDiagonal();
+  return scale_.asDiagonal() * scaledCovarianceOfDirections(scaled) * scale_.asDiagonal();
 }
 
 Directions Observability::openDirections(const Eigen::Isometry3d& T_live_ref) const {

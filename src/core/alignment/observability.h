@@ -54,9 +54,13 @@ class Observability {
   /// Projects increments onto the open directions along the others; zero when all are seen.
   Matrix6 openProjector() const;
 
-  /// H⁻¹ C H⁻¹ in the directions that are seen, with the covariance C of the gradient, and its
-  /// inverse there; zero in the others.
+  /// H⁻¹ C H⁻¹ in the directions that are seen, with the covariance C of the gradient; zero in the
+  /// others.
   Matrix6 covarianceOfSeen() const;
+
+  /// Inverse of that covariance, and of what uncertain open directions add to it, in the directions
+  /// that are seen; zero in the others. Without this addition, what is seen would seem to measure
+  /// motion along an open direction that is not known exactly.
   Matrix6 informationOfSeen() const;
 
   /// What the seen directions may have wrong because the open ones are not known exactly: a camera
@@ -71,6 +75,7 @@ class Observability {
  private:
   void findOpen();
   Matrix6 scaledCovarianceOfSeen() const;
+  Matrix6 scaledCovarianceOfDirections(const Matrix6& scaled) const;
 
   Vector6 scale_;  // multiplies increments in median depths to give those in meters
   Matrix6 hessian_ = Matrix6::Zero();  // scaled, as are the other two

@@ -237,6 +237,25 @@ TEST(ObservabilityTest, CovarianceAndInformationAreInverseInWhatIsSeen) {
   }
 }
 
+// Noise turns the open direction that is found a little towards those that are seen. A camera that
+// has moved along the true one, as far as it may, must not seem to be measured by them.
+TEST(ObservabilityTest, SeenDirectionsDoNotMeasureMotionAlongAnOpenOne) {
+  const TermCurvature term = TwoFrames(Vector6::Unit(0)).term();
+  ObservabilityInput input = inputFor(term.hessian);
+  const double sigma = 0.2;  // m
+  input.expected_covariance = sigma * sigma * Matrix6::Identity();
+  Observability seen(term.hessian, input);
+  seen.confirm(kAll, {term});
+  ASSERT_EQ(numOpen(seen), 1);
+  const Vector6 along = sigma * Vector6::Unit(0);
+  const Vector6 across = along - seen.openProjector() * along;
+  EXPECT_GT(across.dot(seen.covarianceOfSeen().completeOrthogonalDecomposition().solve(across)),
+            1.0);
+  EXPECT_LT(across.dot(seen.informationOfSeen() * across), 0.1);
+  const Vector6 truly_across = 0.02 * Vector6::Unit(1);
+  EXPECT_GT(truly_across.dot(seen.informationOfSeen() * truly_across), 100.0);
+}
+
 TEST(ObservabilityTest, TheCovarianceIsThatOfTheSandwich) {
   Random random(5);
   Matrix6 root;
