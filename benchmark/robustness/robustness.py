@@ -42,8 +42,10 @@ def compared(bench):
 
 
 def shutters(bench):
-    """Ten seeds with and without a rolling shutter."""
+    """Ten seeds with and without a rolling shutter, also in recordings that disagree."""
     bench.say_table("Read-out time", shutter.HEAD, shutter.rows(bench), shutter.TEXT)
+    bench.say_table("Read-out time of recordings that disagree", shutter.DISTURBED_HEAD,
+                    shutter.disturbed_rows(bench), shutter.DISTURBED_TEXT)
 
 
 PARTS = {"light": light.light, "darkness": darkness.darkness, "loss": loss.loss,

@@ -20,7 +20,9 @@ constexpr double kMaxCorrection = 0.5;
 constexpr double kMinInformation = 1000.0;
 // A rolling shutter of 0.6 asks for 0.1 to 0.4 at first. Moving shadows and clipped images may ask
 // for as much by chance; but when that is believed, the next keyframes ask for at least 0.3 less.
-// All compared with corrections in frame periods: two keyframes > each, their mean > mean.
+// All compared with corrections in frame periods: two keyframes > each, their mean > mean, and that
+// of all keyframes since the start, weighted by their information, > each: depth of another time
+// asks for as much in two keyframes that show little.
 constexpr double kSwitchOnEach = 0.1;
 constexpr double kSwitchOnMean = 0.15;
 constexpr double kRevoked = -0.25;
@@ -53,7 +55,13 @@ void ReadoutEstimator::add(const ReadoutMeasurement& measurement) {
 }
 
 void ReadoutEstimator::endKeyframe() {
-  if (information_ >= kMinInformation) decide(weighted_sum_ / information_);
+  if (information_ >= kMinInformation) {
+    if (!is_on_) {
+      sum_while_off_ += weighted_sum_;
+      information_while_off_ += information_;
+    }
+    decide(weighted_sum_ / information_);
+  }
   weighted_sum_ = 0.0;
   information_ = 0.0;
 }
@@ -61,7 +69,8 @@ void ReadoutEstimator::endKeyframe() {
 void ReadoutEstimator::decide(double correction) {
   if (!is_on_) {
     const double mean = 0.5 * (correction + last_correction_);
-    is_on_ = std::min(correction, last_correction_) > caution_ * kSwitchOnEach &&
+    const double of_all = sum_while_off_ / information_while_off_;
+    is_on_ = std::min({correction, last_correction_, of_all}) > caution_ * kSwitchOnEach &&
              mean > caution_ * kSwitchOnMean;
     if (is_on_) estimate_ = std::min(kFirstLimit, kGain * mean);
     last_correction_ = correction;
@@ -71,6 +80,8 @@ void ReadoutEstimator::decide(double correction) {
     is_on_ = false;
     estimate_ = 0.0;
     last_correction_ = 0.0;
+    sum_while_off_ = 0.0;
+    information_while_off_ = 0.0;
     caution_ *= 2.0;
   } else if (std::abs(correction) > kIgnored) {
     const double gain = kGain * std::max(kMinGain, 1.0 / (1.0 + 0.5 * updates_));

@@ -43,6 +43,8 @@ class ReadoutEstimator {
   double weighted_sum_ = 0.0;
   double information_ = 0.0;
   double last_correction_ = 0.0;
+  double sum_while_off_ = 0.0;  // as above, over the keyframes for which the shutter was global
+  double information_while_off_ = 0.0;
   bool is_on_ = false;
   int updates_ = 0;
   int keyframes_on_ = 0;

@@ -129,6 +129,16 @@ TEST_F(ReadoutEstimatorTest, TwoKeyframesInARowSwitchItOn) {
   EXPECT_GT(estimator_.readout(), 0.3);
 }
 
+// Depth of another time: little by most keyframes, much by two that show little.
+TEST_F(ReadoutEstimatorTest, TwoKeyframesThatShowLittleDoNotOutvoteTheOthers) {
+  for (int i = 0; i < 3; ++i) keyframe(0.04, 10, 430.0);
+  keyframe(0.16, 10, 150.0);
+  keyframe(0.2, 10, 110.0);
+  EXPECT_EQ(estimator_.readout(), 0.0);
+  for (int i = 0; i < 4; ++i) keyframe(0.2, 10, 430.0);
+  EXPECT_GT(estimator_.readout(), 0.3);
+}
+
 // The effect of moving shadows: they suggest a long read-out time, and the opposite once it is
 // used.
 TEST_F(ReadoutEstimatorTest, WhatTheNextKeyframesContradictIsRevokedAndNotBelievedAgainSoon) {
