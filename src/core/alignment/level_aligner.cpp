@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "core/alignment/minimize.h"
 #include "core/alignment/open_directions.h"
 #include "core/execution/cpu_clock.h"
 #include "core/shutter/shutter_measurement.h"
@@ -67,19 +66,6 @@ bool LevelAligner::isEnoughInView(Term& term) const {
   return term.numVisible() >= static_cast<std::size_t>(parameters_.loss.lost_points);
 }
 
-/// The geometric term, if enough of its points have depth in the live frame.
-GeometricTerm* LevelAligner::geometricTerm(int num_points) {
-  const GeometricPoints& points = task_.keyframe.geometricPoints();
-  if (!parameters_.geometry.geometric_term || points.size() == 0) return nullptr;
-  geometry_.emplace(points, static_cast<std::size_t>(num_points), task_.live, depth_warp_,
-                    parameters_);
-  geometry_->evaluate(alignment_.T_live_ref);
-  if (geometry_->numVisible() < static_cast<std::size_t>(parameters_.loss.lost_points)) {
-    return nullptr;
-  }
-  return &*geometry_;
-}
-
 /// Prior at the predicted pose; null when there is no prediction.
 MotionPriorTerm* LevelAligner::motionPrior(double weight) {
   const PoseExpectation& expected = task_.expected;
@@ -92,6 +78,11 @@ MotionPriorTerm* LevelAligner::motionPrior(double weight) {
 double LevelAligner::toleranceOf(Stage stage) const {
   if (stage == Stage::kLast) return kLastTolerance;
   return level_ > kShutterLevel ? parameters_.alignment.coarse_tolerance : 1.0;
+}
+
+Minimum LevelAligner::minimumOfTerms(double tolerance, double trusted_step_pixels) const {
+  return minimize(*terms_, alignment_.T_live_ref, static_cast<double>(points_.median_depth),
+                  points_.pixel_motion, parameters_, tolerance, trusted_step_pixels);
 }
 
 /// Minimizes the sum of the terms that there are.
@@ -109,9 +100,7 @@ void LevelAligner::minimizeTerms(const LevelTerms& terms, Stage stage) {
   const double trusted = parameters_.alignment.method == Method::kMi
                              ? 0.0
                              : tolerance * parameters_.alignment.trusted_step_pixels;
-  const Minimum minimum =
-      minimize(*terms_, alignment_.T_live_ref, static_cast<double>(points_.median_depth),
-               points_.pixel_motion, parameters_, tolerance, trusted);
+  const Minimum minimum = minimumOfTerms(tolerance, trusted);
   alignment_.T_live_ref = minimum.T_live_ref;
   alignment_.hessian = minimum.hessian;
   record_.iterations += minimum.iterations;
@@ -176,11 +165,6 @@ double LevelAligner::share(std::size_t points) const {
                             : 0.0;
 }
 
-void LevelAligner::judgeDepth(const GeometricTerm& geometry) {
-  alignment_.depth_scale = geometry.scale();
-  alignment_.sees_depth = geometry.scale() <= parameters_.loss.lost_depth_scale;
-}
-
 void LevelAligner::alignByMutualInformation() {
   MiTerm term = miTerm();
   const Eigen::Isometry3d start = alignment_.T_live_ref;
@@ -207,25 +191,6 @@ void LevelAligner::alignByMutualInformation() {
   if (GeometricTerm* geometry = geometricTerm(parameters_.geometry.geometric_points_dark)) {
     alignByDepthAlone(*geometry);
   }
-}
-
-void LevelAligner::alignByDepthAlone(GeometricTerm& geometry) {
-  LevelTerms terms;
-  terms.depth = &geometry;
-  terms.prior = motionPrior(geometry.overconfidence());
-  minimizeTerms(terms);
-  judgeDepth(geometry);
-}
-
-/// A dark image is mostly noise, which leaves directions open that depth alone sees. Whether depth
-/// sees all of them; otherwise nothing is changed.
-bool LevelAligner::leaveOutDarkImage(GeometricTerm& geometry, const Eigen::Isometry3d& start) {
-  const Alignment with_image = alignment_;
-  alignment_.T_live_ref = start;
-  alignByDepthAlone(geometry);
-  if (!alignment_.has_open_directions) return true;
-  alignment_ = with_image;
-  return false;
 }
 
 SsdTerm LevelAligner::intensityTerm(std::size_t num_points) const {
@@ -270,7 +235,7 @@ void LevelAligner::alignBySsd() {
   if (geometry != nullptr) judgeDepth(*geometry);
   if (alignment_.sees_image && !shows_enough && alignment_.has_open_directions &&
       geometry != nullptr) {
-    alignment_.sees_image = !leaveOutDarkImage(*geometry, start);
+    alignment_.sees_image = !judgeDarkImageByDepth(term, *geometry, start);
     term.evaluate(alignment_.T_live_ref);
   }
   // If the image shows nothing, or only white, the points of the depth term count.

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/alignment/align.h"
+#include "core/alignment/minimize.h"
 #include "core/alignment/observability.h"
 #include "core/execution/recycled.h"
 #include "core/geometry/warp.h"
@@ -52,8 +53,10 @@ class LevelAligner {
   void alignBySsd();
   Stage alignLeadingPoints();
   void alignByDepthAlone(GeometricTerm& geometry);
-  bool leaveOutDarkImage(GeometricTerm& geometry, const Eigen::Isometry3d& start);
+  bool judgeDarkImageByDepth(SsdTerm& image, GeometricTerm& geometry,
+                             const Eigen::Isometry3d& start);
   void judgeDepth(const GeometricTerm& geometry);
+  Minimum minimumOfTerms(double tolerance, double trusted_step_pixels) const;
   void minimizeTerms(const LevelTerms& terms, Stage stage = Stage::kOnly);
   void holdOpenDirections(const SsdTerm* intensities, bool has_prior);
   void measureRows(SsdTerm& term, GeometricTerm* geometry);
