@@ -12,6 +12,7 @@
 #include <boost/make_shared.hpp>
 #include <cstdint>
 
+#include "ros/frustum.h"
 #include "ros/node_topics.h"
 #include "ros/topics.h"
 
@@ -21,33 +22,6 @@ namespace {
 constexpr double kFrustumDepth = 0.1;  // m, of the pyramid that stands for a keyframe
 constexpr double kLineWidth = 0.004;   // m
 constexpr char kMarkerNamespace[] = "keyframes";
-
-geometry_msgs::Point toPoint(const Eigen::Vector3d& v) {
-  geometry_msgs::Point point;
-  point.x = v.x();
-  point.y = v.y();
-  point.z = v.z();
-  return point;
-}
-
-/// Edges of the pyramid that the camera sees, as pairs of points.
-void addFrustum(const Camera& camera, const Eigen::Isometry3d& T,
-                std::vector<geometry_msgs::Point>& points) {
-  const double right = camera.width - 0.5;
-  const double bottom = camera.height - 0.5;
-  const Eigen::Vector2d corners[] = {{-0.5, -0.5}, {right, -0.5}, {right, bottom}, {-0.5, bottom}};
-  const geometry_msgs::Point center = toPoint(T.translation());
-  geometry_msgs::Point ends[4];
-  for (int i = 0; i < 4; ++i) {
-    // A corner that the lens has no ray for is drawn where a pinhole would see it.
-    const Eigen::Vector3d pinhole((corners[i].x() - camera.cx) / camera.fx,
-                                  (corners[i].y() - camera.cy) / camera.fy, 1.0);
-    ends[i] = toPoint(T * (kFrustumDepth * camera.ray(corners[i]).value_or(pinhole)));
-  }
-  for (int i = 0; i < 4; ++i) {
-    points.insert(points.end(), {center, ends[i], ends[i], ends[(i + 1) % 4]});
-  }
-}
 
 }  // namespace
 
@@ -133,10 +107,12 @@ void DisplayPublisher::publishMarkers(const ros::Time& stamp) {
       keyframes_.empty() ? visualization_msgs::Marker::DELETE : visualization_msgs::Marker::ADD;
   marker.pose.orientation.w = 1.0;
   marker.scale.x = kLineWidth;
-  marker.color.r = 0.95F;
-  marker.color.g = 0.6F;
+  marker.color.r = 0.80F;  // purple: none of the states' colors
+  marker.color.g = 0.47F;
+  marker.color.b = 0.65F;
   marker.color.a = 1.0F;
-  for (const Eigen::Isometry3d& T : keyframes_) addFrustum(camera_, T, marker.points);
+  for (const Eigen::Isometry3d& T : keyframes_)
+    addFrustum(camera_, T, kFrustumDepth, marker.points);
   visualization_msgs::MarkerArray message;
   message.markers.push_back(marker);
   markers_.publish(message);

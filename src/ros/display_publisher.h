@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <geometry_msgs/Point.h>
 #include <image_transport/publisher.h>
 #include <ros/node_handle.h>
 #include <std_msgs/Header.h>

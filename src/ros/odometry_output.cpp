@@ -9,7 +9,8 @@ OdometryOutput::OdometryOutput(const ros::NodeHandle& private_node,
                                const NodeParameters& parameters)
     : parameters_(parameters),
       publisher_(private_node, parameters),
-      display_(private_node, parameters) {}
+      display_(private_node, parameters),
+      markers_(private_node, parameters) {}
 
 void OdometryOutput::publishOdometry(const TrackingSession& session, const ros::Time& stamp,
                                      const Eigen::Isometry3d& T_base_camera,
@@ -30,6 +31,7 @@ void OdometryOutput::publishDisplay(const TrackingSession& session,
                                     const std_msgs::Header& header) {
   if (!T_odom_world_) return;
   display_.publish(session.odometry(), session.result().keyframes, *T_odom_world_, header);
+  markers_.add(session.result(), session.odometry().camera(), *T_odom_world_, header.stamp);
 }
 
 void OdometryOutput::setPose(const Eigen::Isometry3d& T_odom_base, const TrackingSession& session) {
@@ -44,12 +46,14 @@ void OdometryOutput::setPose(const Eigen::Isometry3d& T_odom_base, const Trackin
   T_odom_world_ = T_odom_world;
   publisher_.movePath(T_new_old);
   display_.move(T_new_old);
+  markers_.move(T_new_old);
 }
 
 void OdometryOutput::reset() {
   T_odom_world_.reset();
   publisher_.clearPath();
   display_.clear();
+  markers_.clear();
 }
 
 }  // namespace mivo

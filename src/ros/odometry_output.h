@@ -10,6 +10,7 @@
 #include "ros/display_publisher.h"
 #include "ros/node_parameters.h"
 #include "ros/odometry_publisher.h"
+#include "ros/state_markers.h"
 #include "session/tracking_session.h"
 
 namespace mivo {
@@ -44,6 +45,7 @@ class OdometryOutput {
   NodeParameters parameters_;
   OdometryPublisher publisher_;
   DisplayPublisher display_;
+  StateMarkers markers_;
   std::optional<Eigen::Isometry3d> T_odom_world_;  // known once tf has the transform to the camera
   Eigen::Isometry3d T_base_camera_ = Eigen::Isometry3d::Identity();  // of the last frame
 };

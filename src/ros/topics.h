@@ -17,6 +17,7 @@ constexpr char kPath[] = "path";
 constexpr char kStatus[] = "status";
 constexpr char kKeyframeCloud[] = "keyframe_cloud";
 constexpr char kKeyframeMarkers[] = "keyframes";
+constexpr char kStateMarkers[] = "state_markers";
 constexpr char kReferenceImage[] = "reference/image";
 constexpr char kResidualImage[] = "residual/image";
 

@@ -140,6 +140,45 @@ TEST_F(NodeTest, DisplayTopicsShowThePlane) {
   }
 }
 
+TEST_F(NodeTest, StateMarkersTellStateAndReason) {
+  publishCameraOnBase();
+  std::vector<visualization_msgs::MarkerArray> arrays;
+  const ros::Subscriber subscriber = collect("state_markers", arrays);
+  load();
+  const auto marker = [&](const std::string& ns) {
+    for (const visualization_msgs::Marker& one : arrays.back().markers) {
+      if (one.ns == ns) return one;
+    }
+    return visualization_msgs::Marker();
+  };
+  const auto shows = [&](const std::string& state) {
+    return !arrays.empty() && marker("state").text == state;
+  };
+  const int last = publishUntil([&] { return shows("tracking"); }, 0, 0);
+  spoil_ = [this] { blacken(); };
+  track(1, last + 1);
+  ASSERT_TRUE(waitFor([&] { return shows("lost"); }));
+  EXPECT_EQ("image has nothing in\ncommon with the keyframe", marker("reason").text);
+  const auto color_of_lost = marker("camera").color;
+  const visualization_msgs::Marker path = marker("path");
+  spoil_ = [] {};
+  track(1, last + 2);
+  ASSERT_TRUE(waitFor([&] { return shows("tracking"); }));
+  const std::lock_guard<std::mutex> lock(mutex_);
+  EXPECT_EQ(frame("odom"), marker("state").header.frame_id);
+  EXPECT_EQ(visualization_msgs::Marker::DELETE, marker("reason").action);
+  EXPECT_NE(color_of_lost.r, marker("camera").color.r);
+  EXPECT_EQ(16U, marker("camera").points.size());  // four sides of a pyramid
+  // The lost frame is not on the path; each step has two points and their colors.
+  EXPECT_EQ(path.points.size() + 2, marker("path").points.size());
+  EXPECT_EQ(marker("path").points.size(), marker("path").colors.size());
+  const Eigen::Isometry3d T_odom_camera = truth(1) * cameraOnBase();
+  const geometry_msgs::Point& end = marker("path").points.back();
+  EXPECT_LT((Eigen::Vector3d(end.x, end.y, end.z) - T_odom_camera.translation()).norm(),
+            kTolerance);
+  EXPECT_GT(marker("state").pose.position.z, T_odom_camera.translation().z());
+}
+
 TEST_F(NodeTest, TwoDModeStaysInThePlane) {
   publishCameraOnBase();
   setParameter("two_d_mode", true);
