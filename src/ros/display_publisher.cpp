@@ -3,16 +3,11 @@
 
 #include <cv_bridge/cv_bridge.h>
 #include <image_transport/image_transport.h>
-#include <sensor_msgs/PointCloud2.h>
 #include <sensor_msgs/image_encodings.h>
-#include <sensor_msgs/point_cloud2_iterator.h>
 #include <visualization_msgs/MarkerArray.h>
 
-#include <algorithm>
-#include <boost/make_shared.hpp>
-#include <cstdint>
-
 #include "ros/frustum.h"
+#include "ros/keyframe_cloud.h"
 #include "ros/node_topics.h"
 #include "ros/topics.h"
 
@@ -40,12 +35,14 @@ DisplayPublisher::DisplayPublisher(const ros::NodeHandle& private_node,
 
 void DisplayPublisher::publish(const Odometry& odometry, int keyframe,
                                const Eigen::Isometry3d& T_odom_world,
-                               const std_msgs::Header& header) {
+                               const ImageMessageConstPtr& color) {
   if (!odometry.hasKeyframe()) return;
   const Eigen::Isometry3d T_odom_keyframe = T_odom_world * odometry.keyframePose();
   camera_ = odometry.camera();
+  const std_msgs::Header& header = color->header;
   if (keyframe != last_keyframe_) {
     last_keyframe_ = keyframe;
+    keyframe_color_ = color;
     if (keyframes_.size() >= static_cast<std::size_t>(parameters_.path_length)) {
       keyframes_.erase(keyframes_.begin());
     }
@@ -69,31 +66,10 @@ void DisplayPublisher::publish(const Odometry& odometry, int keyframe,
 void DisplayPublisher::publishCloud(const Odometry& odometry,
                                     const Eigen::Isometry3d& T_odom_keyframe,
                                     const ros::Time& stamp) {
-  const std::vector<CloudPoint> points = odometry.keyframeCloud();
-  const auto message = boost::make_shared<sensor_msgs::PointCloud2>();
+  const sensor_msgs::PointCloud2Ptr message =
+      toCloud(odometry.keyframeCloud(), T_odom_keyframe, keyframe_color_->toColorImage());
   message->header.stamp = stamp;
   message->header.frame_id = parameters_.odom_frame;
-  message->height = 1;
-  message->is_dense = true;
-  sensor_msgs::PointCloud2Modifier modifier(*message);
-  modifier.setPointCloud2Fields(
-      5, "x", 1, sensor_msgs::PointField::FLOAT32, "y", 1, sensor_msgs::PointField::FLOAT32, "z", 1,
-      sensor_msgs::PointField::FLOAT32, "rgb", 1, sensor_msgs::PointField::FLOAT32, "intensity", 1,
-      sensor_msgs::PointField::FLOAT32);
-  modifier.resize(points.size());
-  sensor_msgs::PointCloud2Iterator<float> position(*message, "x");
-  sensor_msgs::PointCloud2Iterator<std::uint8_t> color(*message, "rgb");
-  sensor_msgs::PointCloud2Iterator<float> intensity(*message, "intensity");
-  for (const CloudPoint& point : points) {
-    const Eigen::Vector3f p =
-        (T_odom_keyframe * Eigen::Vector3d(point.x, point.y, point.z)).cast<float>();
-    std::copy_n(p.data(), 3, &position[0]);
-    std::fill_n(&color[0], 3, static_cast<std::uint8_t>(point.intensity));
-    *intensity = point.intensity;
-    ++position;
-    ++color;
-    ++intensity;
-  }
   cloud_.publish(message);
 }
 
@@ -132,6 +108,7 @@ void DisplayPublisher::move(const Eigen::Isometry3d& T_new_old) {
 
 void DisplayPublisher::clear() {
   keyframes_.clear();
+  keyframe_color_.reset();
   last_keyframe_ = cloud_keyframe_ = markers_keyframe_ = 0;
   publishMarkers(ros::Time::now());
 }

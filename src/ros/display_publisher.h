@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "mivo/core/odometry.h"
+#include "ros/image_message.h"
 #include "ros/node_parameters.h"
 
 namespace mivo {
@@ -21,9 +22,9 @@ class DisplayPublisher {
 
   /// @param keyframe      number of the current keyframe
   /// @param T_odom_world  world of the tracker in the published frame
-  /// @param header        of the color image
+  /// @param color         of the frame
   void publish(const Odometry& odometry, int keyframe, const Eigen::Isometry3d& T_odom_world,
-               const std_msgs::Header& header);
+               const ImageMessageConstPtr& color);
 
   /// Updates the keyframes after the odometry frame was moved.
   void move(const Eigen::Isometry3d& T_new_old);
@@ -42,6 +43,7 @@ class DisplayPublisher {
   image_transport::Publisher reference_;
   image_transport::Publisher residual_;
   std::vector<Eigen::Isometry3d> keyframes_;  // T_odom_keyframe
+  ImageMessageConstPtr keyframe_color_;       // of the last one
   Camera camera_;
   int last_keyframe_ = 0;   // seen
   int cloud_keyframe_ = 0;  // shown

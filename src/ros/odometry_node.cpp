@@ -235,7 +235,7 @@ void OdometryNode::publish(const ImagePair& pair,
     output_.publishOdometry(session_, account.header.stamp, *T_base_camera, guess_.T_guess_base());
   }
   account.processing_latency = (ros::WallTime::now() - pair.arrival()).toSec();
-  if (T_base_camera) output_.publishDisplay(session_, account.header);
+  if (T_base_camera) output_.publishDisplay(session_, pair.color);
 }
 
 void OdometryNode::publishDiagnostics() {

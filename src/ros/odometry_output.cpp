@@ -28,10 +28,10 @@ void OdometryOutput::publishOdometry(const TrackingSession& session, const ros::
 }
 
 void OdometryOutput::publishDisplay(const TrackingSession& session,
-                                    const std_msgs::Header& header) {
+                                    const ImageMessageConstPtr& color) {
   if (!T_odom_world_) return;
-  display_.publish(session.odometry(), session.result().keyframes, *T_odom_world_, header);
-  markers_.add(session.result(), session.odometry().camera(), *T_odom_world_, header.stamp);
+  display_.publish(session.odometry(), session.result().keyframes, *T_odom_world_, color);
+  markers_.add(session.result(), session.odometry().camera(), *T_odom_world_, color->header.stamp);
 }
 
 void OdometryOutput::setPose(const Eigen::Isometry3d& T_odom_base, const TrackingSession& session) {

@@ -29,8 +29,8 @@ class OdometryOutput {
                        const Eigen::Isometry3d& T_base_camera,
                        const std::optional<Eigen::Isometry3d>& T_guess_base);
 
-  /// After publishOdometry. @param header of the color image
-  void publishDisplay(const TrackingSession& session, const std_msgs::Header& header);
+  /// After publishOdometry. @param color of the frame
+  void publishDisplay(const TrackingSession& session, const ImageMessageConstPtr& color);
 
   void publishStatus(const TrackingStatus& status) { publisher_.publish(status); }
 

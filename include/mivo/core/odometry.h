@@ -13,13 +13,15 @@
 
 namespace mivo {
 
-/// A colored point of the keyframe, for display: meters in the keyframe's optical frame, gray
-/// 0..255.
+/// A point of the keyframe, for display: meters in the keyframe's optical frame, gray 0..255, and
+/// its pixel.
 struct CloudPoint {
   float x;
   float y;
   float z;
   float intensity;
+  int column;
+  int row;
 };
 
 /// Visual odometry of one camera: each frame is aligned with a keyframe by the hybrid tracker.

@@ -39,7 +39,8 @@ std::vector<CloudPoint> makeCloud(const Keyframe& keyframe, const Camera& camera
   std::vector<CloudPoint> cloud;
   cloud.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {
-    cloud.push_back({points.x[i], points.y[i], points.z[i], points.intensity[i]});
+    cloud.push_back({points.x[i], points.y[i], points.z[i], points.intensity[i], points.pixels[i].x,
+                     points.pixels[i].y});
   }
   return cloud;
 }

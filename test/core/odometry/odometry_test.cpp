@@ -335,6 +335,8 @@ TEST(OdometryTest, ViewsForDisplayFitTheFrame) {
   const Camera& camera = walk().camera;
   const auto pixel = testing::project(camera, {cloud[81].x, cloud[81].y, cloud[81].z});
   EXPECT_LT((*pixel - Eigen::Vector2d(2.0, 2.0)).norm(), 1e-3);
+  EXPECT_EQ(cloud[81].column, 2);
+  EXPECT_EQ(cloud[81].row, 2);
   EXPECT_EQ(cloud[81].intensity, walk().frames[0].image.at<unsigned char>(2, 2));
   const cv::Mat residual = odometry.residualImage();
   ASSERT_EQ(residual.size(), cv::Size(80, 60));
