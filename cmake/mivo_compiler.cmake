@@ -46,6 +46,9 @@ endfunction()
 function(mivo_program name)
   add_executable(${name} ${ARGN})
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
+  # As libraries are compiled, whose precompiled headers then serve.
+  target_compile_options(${name} PRIVATE -fPIC)
+  target_precompile_headers(${name} REUSE_FROM mivo_precompiled_library)
   install(TARGETS ${name} RUNTIME DESTINATION lib/mivo)
 endfunction()
 
