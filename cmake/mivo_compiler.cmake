@@ -46,16 +46,31 @@ endfunction()
 function(mivo_program name)
   add_executable(${name} ${ARGN})
   set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
+  # As libraries are compiled, whose precompiled headers then serve.
+  target_compile_options(${name} PRIVATE -fPIC)
+  target_precompile_headers(${name} REUSE_FROM mivo_precompiled_library)
   install(TARGETS ${name} RUNTIME DESTINATION lib/mivo)
 endfunction()
 
-# mivo_script(FILE): an executable script beside the programs.
-function(mivo_script file)
+# mivo_link(FILE): beside the programs in the build folder.
+function(mivo_link file)
   file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/bin)
   if(NOT EXISTS ${PROJECT_BINARY_DIR}/bin/${file})
     file(CREATE_LINK ${CMAKE_CURRENT_SOURCE_DIR}/${file} ${PROJECT_BINARY_DIR}/bin/${file} SYMBOLIC)
   endif()
+endfunction()
+
+# mivo_script(FILE): an executable script beside the programs.
+function(mivo_script file)
+  mivo_link(${file})
   install(PROGRAMS ${file} DESTINATION lib/mivo)
+endfunction()
+
+# mivo_plot(FILE): what a program beside it hands to Python (programs/python_plot.h). It is not executable:
+# rosrun would offer it, and once more for each build without ROS.
+function(mivo_plot file)
+  mivo_link(${file})
+  install(FILES ${file} DESTINATION lib/mivo)
 endfunction()
 
 # Tests are compiled more often than they run; what they test is optimized.

@@ -6,6 +6,7 @@
   - parameters and options that are named exist;
   - messages quoted in doc/troubleshooting.md exist in the sources, and every warning and error that
     the nodes log is explained there;
+  - the README answers what a stranger asks first;
   - the README's tables agree with doc/robustness.md and doc/speed.md.
 
     test/docs_test.py
@@ -20,6 +21,18 @@ import unittest
 ROOT = os.path.dirname(os.path.dirname(os.path.realpath(__file__)))
 sys.path.insert(0, os.path.join(ROOT, "config"))
 from parameter_table import read_parameters  # noqa: E402, found by the line above
+
+# What a stranger asks first, and words of the answer.
+QUESTIONS = {
+    "What frame is the pose in?": ("optical frame", "`base_frame`"),
+    "What is the covariance of?": ("translation (m) before rotation (rad)", "`nav_msgs/Odometry`"),
+    "What does lost look like?": ("LOST", "`result.isMeasured()`", "`lost_frames`"),
+    "Which topic names does a RealSense have?": ("/camera/aligned_depth_to_color/image_raw",),
+    "How do I record?": ("record.launch", "rosbag record"),
+    "How do I compare with ground truth?": ("`evaluate_trajectory GROUNDTRUTH TRAJECTORY",),
+    "How do I use it without ROS?": ("-DMIVO_WITH_ROS=OFF",),
+    "How do I use it on a robot that has wheel odometry?": ("`publish_tf:=false`", "`guess_frame_id:="),
+}
 
 LINK = re.compile(r"!?\[[^\]]*\]\(([^)\s]+)\)")
 FENCE = re.compile(r"^```.*?^```", re.MULTILINE | re.DOTALL)
@@ -146,6 +159,14 @@ class Docs(unittest.TestCase):
                 with self.subTest(message=logged, file=os.path.basename(path)):
                     self.assertTrue(any(parts and all(part in logged for part in parts)
                                         for parts in explained), "not in doc/troubleshooting.md")
+
+    def test_the_first_questions_are_answered(self):
+        answers = dict(re.findall(r"^\*\*([^*]+\?)\*\*(.*?)(?=^\*\*|^## )", read("README.md"),
+                                  re.MULTILINE | re.DOTALL))
+        for question, words in QUESTIONS.items():
+            for word in words:
+                with self.subTest(question=question, word=word):
+                    self.assertIn(word, answers.get(question, ""))
 
     def test_tables_of_the_readme_agree(self):
         for document, width, columns in (("doc/robustness.md", 9, (2, 3, 6, 7)),

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "session/twist_covariance.h"
 
-#include <Eigen/Eigenvalues>
+#include "core/symmetric.h"
 
 namespace mivo {
 
 Matrix6 boundedCovariance(const Matrix6& covariance) {
   if (!covariance.allFinite()) return Matrix6::Identity() * kUnknownVariance;
   const Matrix6 symmetric = 0.5 * (covariance + covariance.transpose());
-  const Eigen::SelfAdjointEigenSolver<Matrix6> solver(symmetric);
+  const auto solver = symmetricEigen(symmetric);
   const Vector6 values = solver.eigenvalues();
   if (solver.info() != Eigen::Success) return Matrix6::Identity() * kUnknownVariance;
   if (values.minCoeff() >= kMinVariance && values.maxCoeff() <= kMaxVariance) return symmetric;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/alignment/newton_step.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
+
+#include "core/symmetric.h"
 
 namespace mivo {
 
@@ -12,7 +13,7 @@ NewtonStep newtonStep(const QuadraticModel& model, double length, double min_cur
   Vector6 scale = Vector6::Ones();
   scale.head<3>().setConstant(length);
   const Matrix6 scaled = scale.asDiagonal() * model.hessian * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Matrix6> solver(scaled);
+  const auto solver = symmetricEigen(scaled);
   const Vector6 curvature = solver.eigenvalues();
   const double strongest = curvature.cwiseAbs().maxCoeff();
   if (!(strongest > 0.0)) return result;

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <optional>
 
+#include "core/symmetric.h"
+
 namespace mivo {
 namespace {
 
@@ -38,7 +40,7 @@ Matrix within(const Matrix6& matrix, const Matrix& axes, const Vector6& scale) {
 /// as that of MI is far from its maximum: it counts there by its size.
 Matrix6 positive(const Matrix6& matrix) {
   if (!matrix.allFinite()) return matrix;
-  const Eigen::SelfAdjointEigenSolver<Matrix6> solver(matrix);
+  const auto solver = symmetricEigen(matrix);
   if (solver.eigenvalues().minCoeff() >= 0.0) return matrix;
   return solver.eigenvectors() * solver.eigenvalues().cwiseAbs().asDiagonal() *
          solver.eigenvectors().transpose();
@@ -103,7 +105,7 @@ Observability::Observability(const Matrix6& hessian, const ObservabilityInput& i
   expected_covariance_ = inverse.asDiagonal() * input.expected_covariance * inverse.asDiagonal();
   if (!hessian.allFinite()) return;
   hessian_ = scale_.asDiagonal() * hessian * scale_.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Matrix6> solver(hessian_);
+  const auto solver = symmetricEigen(hessian_);
   axes_ = solver.eigenvectors();
   curvature_ = solver.eigenvalues();
   findOpen();

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/alignment/open_directions.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "core/alignment/minimize.h"
 #include "core/alignment/pose_covariance.h"
 #include "core/execution/recycled.h"
+#include "core/symmetric.h"
 
 namespace mivo {
 namespace {
@@ -133,7 +133,7 @@ struct Held {
 
 Held holdAtExpected(const PoseExpectation& expected, const Matrix6& expected_covariance,
                     const Eigen::Isometry3d& T_live_ref, const Observability& seen) {
-  const Matrix6 information = expected_covariance.ldlt().solve(Matrix6(Matrix6::Identity()));
+  const Matrix6 information = symmetricSolve(expected_covariance, Matrix6(Matrix6::Identity()));
   Held held;
   held.covariance = (seen.informationOfSeen() + information).inverse();
   if (!expected.is_known) return held;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/alignment/pose_covariance.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
+
+#include "core/symmetric.h"
 
 namespace mivo {
 namespace {
@@ -32,8 +33,7 @@ Matrix6 guessCovariance() {
 }
 
 Matrix6 positivePart(const Matrix6& covariance) {
-  const Eigen::SelfAdjointEigenSolver<Matrix6> solver(
-      Matrix6(0.5 * (covariance + covariance.transpose())));
+  const auto solver = symmetricEigen(0.5 * (covariance + covariance.transpose()));
   constexpr double kLeast = std::min(kFloorTranslation, kFloorRotation);
   const Vector6 variances = solver.eigenvalues().cwiseMax(kLeast * kLeast);
   return solver.eigenvectors() * variances.asDiagonal() * solver.eigenvectors().transpose();

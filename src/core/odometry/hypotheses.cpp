@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/odometry/hypotheses.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "core/alignment/pose_covariance.h"
+#include "core/symmetric.h"
 
 namespace mivo {
 namespace {
@@ -32,7 +32,7 @@ Matrix6 covarianceOf(const Sight& sight) {
 }
 
 double chiSquare(const Vector6& difference, const Matrix6& covariance) {
-  return difference.dot(covariance.ldlt().solve(difference));
+  return difference.dot(symmetricSolve(covariance, difference));
 }
 
 }  // namespace

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/odometry/velocity_filter.h"
 
-#include <Eigen/Cholesky>
-
 #include "core/alignment/pose_covariance.h"
+#include "core/symmetric.h"
 
 namespace mivo {
 namespace {
@@ -35,7 +34,7 @@ void VelocityFilter::add(const MeasuredMotion& motion, const MotionParameters& p
   const Vector6 of_motion = motion.twist / motion.periods;
   Matrix6 after = measured;
   if (parameters.motion_model == MotionModelKind::kFilteredVelocity) {
-    const Matrix6 gain = Matrix6(before + measured).ldlt().solve(before).transpose();
+    const Matrix6 gain = symmetricSolve(before + measured, before).transpose();
     twist_per_period_ += gain * (of_motion - twist_per_period_);
     after = before - gain * before;
   } else {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/terms/geometric_term.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 
 #include "core/images/depth_pyramid.h"
+#include "core/symmetric.h"
 #include "core/terms/depth_agreement.h"
 
 namespace mivo {
@@ -63,7 +63,7 @@ int GeometricTerm::gradientCovariance(Matrix6& covariance) const {
 double GeometricTerm::overconfidence() {
   Matrix6 of_gradient;
   if (gradientCovariance(of_gradient) < kFewestBlocks) return 1.0;
-  const Matrix6 ratio = linearize(0).hessian.ldlt().solve(of_gradient);
+  const Matrix6 ratio = symmetricSolve(linearize(0).hessian, of_gradient);
   return std::max(1.0, ratio.trace() / 6.0);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/terms/motion_prior_term.h"
 
-#include <Eigen/Cholesky>
+#include "core/symmetric.h"
 
 namespace mivo {
 namespace {
@@ -21,7 +21,7 @@ Matrix6 derivativeOfError(const Vector6& error) {
 MotionPriorTerm::MotionPriorTerm(const Eigen::Isometry3d& T_live_ref_expected,
                                  const Matrix6& covariance, double weight)
     : T_expected_ref_(T_live_ref_expected),
-      information_(weight * covariance.ldlt().solve(Matrix6(Matrix6::Identity()))) {}
+      information_(weight * symmetricSolve(covariance, Matrix6(Matrix6::Identity()))) {}
 
 double MotionPriorTerm::evaluate(const Eigen::Isometry3d& T_live_ref) {
   T_expected_live_ = T_expected_ref_ * T_live_ref.inverse();
