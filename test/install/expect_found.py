@@ -20,8 +20,8 @@ import roslaunch.core
 import roslaunch.node_args
 import rospkg
 
-PROGRAMS = ("bag_to_sequence", "check_bag", "evaluate_trajectory", "generate_sequence", "odometry_node",
-            "openni2_node", "play_bag", "relight_sequence", "run_bag", "run_sequence", "sequence_to_bag")
+PROGRAMS = ("bag_to_sequence", "check_bag", "evaluate_trajectory", "generate_sequence", "mivo_top",
+            "odometry_node", "openni2_node", "play_bag", "relight_sequence", "run_bag", "run_sequence", "sequence_to_bag")
 NEEDS_BAG = ("bag.launch", "demo.launch")
 
 

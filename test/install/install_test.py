@@ -16,7 +16,7 @@ import unittest
 
 ROOT = os.path.dirname(os.path.dirname(os.path.dirname(os.path.realpath(__file__))))
 PLOTS = {"plot_evaluation"}
-ROS_SCRIPTS = {"play_bag", "plot_bag"}
+ROS_SCRIPTS = {"mivo_top", "play_bag", "plot_bag"}
 PROGRAMS = {"evaluate_trajectory", "generate_sequence", "relight_sequence", "run_sequence"}
 ROS_PROGRAMS = {"bag_to_sequence", "check_bag", "odometry_node", "openni2_node", "run_bag", "sequence_to_bag"}
 EXPECT_FOUND = os.path.join(ROOT, "test", "install", "expect_found.py")
