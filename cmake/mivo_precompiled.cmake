@@ -22,6 +22,8 @@ if(MIVO_WITH_ROS)
     <nav_msgs/Odometry.h> <ros/console.h> <ros/node_handle.h> <sensor_msgs/CameraInfo.h>
     <sensor_msgs/Image.h>)
   target_include_directories(mivo_precompiled_ros SYSTEM PRIVATE ${catkin_INCLUDE_DIRS})
+  # Boost's package file has it for the programs; boost's headers ask for it.
+  target_compile_definitions(mivo_precompiled_ros PRIVATE BOOST_ALL_NO_LIB)
 endif()
 
 if(MIVO_WITH_TESTS)
