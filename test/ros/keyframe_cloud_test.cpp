@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 #include <sensor_msgs/point_cloud2_iterator.h>
 
+#include <cstdint>
+#include <vector>
+
 namespace mivo {
 namespace {
 
