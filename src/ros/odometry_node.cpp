@@ -67,6 +67,7 @@ OdometryNode::~OdometryNode() {
   input_spinner_->stop();
   service_spinner_->stop();
   diagnostics_timer_.stop();
+  input_queue_.callAvailable();  // what has arrived, and the spinner has not come to
   input_->stop();
   frames_.close();
   worker_.join();
