@@ -193,9 +193,8 @@ void OdometryNode::track(const ImagePair& pair, const MessageFrame& input, doubl
   }
   publishStatus(result, account);
   if (result.isRefused()) return;
-  const DepthSample depth = sampleDepth(input.frame);
-  warnings_.lookAtDepth(depth);
-  diagnostics_.addFrame(toMessage(result, account), depth);
+  warnings_.lookAtDepth(input.frame, session_.parameters().depth);
+  diagnostics_.addFrame(toMessage(result, account), sampleDepth(input.frame));
 }
 
 void OdometryNode::publishStatus(const TrackingResult& result, FrameAccount& account) {
