@@ -89,8 +89,8 @@ void lookAtFrames(BagSource& source, BagReport& report) {
     edges.add(frame);
     mirrored.add(withMirroredImage(frame));
   }
-  report.edge_shift = edges.shift();
-  report.is_mirrored = !report.edge_shift && mirrored.shift();
+  report.is_mirrored = mirrored.shift() && mirrored.clarity() > edges.clarity();
+  if (!report.is_mirrored) report.edge_shift = edges.shift();
 }
 
 std::size_t countBlurred(const std::vector<FrameLook>& frames) {

@@ -129,7 +129,10 @@ TEST_F(BagCheckTest, DepthThatIsStampedLaterHasAPositiveOffset) {
     const BagReport report = checkBag({path}, {});
     ASSERT_TRUE(report.clock_offset) << late;
     EXPECT_NEAR(*report.clock_offset, late, 1e-6);
-    if (std::abs(late) < 0.02) EXPECT_NEAR(report.pair_offset, late, 1e-6);
+    // Of images that are 33 ms apart, those nearest to each other are paired.
+    if (std::abs(late) < 0.02) {
+      EXPECT_NEAR(report.pair_offset, late, 1e-6);
+    }
   }
 }
 
