@@ -93,7 +93,7 @@ Evaluation evaluate(const Trajectory& truth, const Trajectory& estimate,
   evaluation.path_drift = pathErrors(poses, options.delta_meters);
   const double true_duration = duration(truth);
   if (!(true_duration > 0.0)) throw Error("the true trajectory has no duration");
-  evaluation.coverage = duration(estimate) / true_duration;
+  evaluation.coverage = duration(poses.estimate) / true_duration;
   requireDelta(estimate, options.delta);
   evaluation.drift =
       relativePoseErrors(truth, estimate, options.delta, options.max_time_difference);

@@ -21,7 +21,7 @@ struct EvaluationOptions {
 struct Evaluation {
   EvaluationOptions options;
   std::size_t frames = 0;                     ///< poses of the estimate
-  double coverage = 0.0;                      ///< duration of the estimate / duration of the truth
+  double coverage = 0.0;                      ///< duration of the matched poses / of the truth
   std::vector<RelativePoseError> drift;       ///< over options.delta; may be empty, see notice
   std::vector<RelativePoseError> steps;       ///< from each matched pose to the next
   std::vector<RelativePoseError> path_drift;  ///< over options.delta_meters; none on shorter paths

@@ -258,7 +258,6 @@ SequenceReader::SequenceReader(const std::string& folder, const FrameRange& rang
   restrict(listing.frames, range, folder);
   images_ = std::make_unique<Images>(std::move(listing));
   camera_ = images_->listing().camera;
-  camera_file_ = images_->listing().camera_file;
   count_ = images_->listing().frames.size();
   notice_ = fmt::format("{}", fmt::join(images_->listing().notices, "; "));
 }
@@ -288,12 +287,17 @@ FrameSource::Status SequenceReader::nextImages(SequenceImages& images, FrameFaul
   return readNext([&](const ListedFrame& listed) { images = images_->readImages(listed); }, fault);
 }
 
+const SequenceListing& SequenceReader::listing() const {
+  return images_->listing();
+}
+
 const std::map<std::string, std::size_t>& SequenceReader::leftOut() const {
-  return images_->listing().left_out;
+  return listing().left_out;
 }
 
 std::string SequenceReader::depthUnit() const {
-  return fmt::format("{}: {} units per meter", camera_file_, camera_.depth_units_per_meter);
+  return fmt::format("{}: {} units per meter", listing().camera_file,
+                     camera_.depth_units_per_meter);
 }
 
 }  // namespace mivo

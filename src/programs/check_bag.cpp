@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <fmt/format.h>
+
 #include <iostream>
 #include <string>
 #include <vector>
@@ -23,7 +25,10 @@ void printTopics(const std::vector<std::string>& bags, const mivo::RgbdTopics& w
             << "rgb: " << topics.color << "\n"
             << "depth: " << topics.depth << "\n"
             << "camera_info: " << topics.camera_info << "\n"
-            << "depth_info: " << topics.depth_info << "\n";
+            << "depth_info: " << topics.depth_info << "\n"
+            << "other_cameras: "
+            << fmt::format("{}", fmt::join(otherCameras(recording.contents(), topics), ", "))
+            << "\n";
 }
 
 void run(int argc, char** argv) {

@@ -2,12 +2,14 @@
 #include "programs/command_line.h"
 
 #include <algorithm>
+#include <cctype>
 #include <exception>
 #include <iostream>
 #include <sstream>
 #include <utility>
 
 #include "core/nearest_name.h"
+#include "mivo/core/error.h"
 
 namespace mivo {
 namespace {
@@ -25,14 +27,20 @@ class TwoNumbers : public po::typed_value<std::vector<double>> {
   unsigned max_tokens() const override { return 2; }
 };
 
+/// Without line breaks, and without the control characters of a damaged file that it may quote.
 std::string oneLine(std::string text) {
-  std::replace(text.begin(), text.end(), '\n', ' ');
-  std::replace(text.begin(), text.end(), '\r', ' ');
+  std::replace_if(
+      text.begin(), text.end(), [](unsigned char c) { return std::iscntrl(c) != 0; }, ' ');
   return text;
 }
 
 std::string beforeEquals(const std::string& option) {
   return option.substr(0, option.find('='));
+}
+
+/// A full disk behind a redirection would leave a part of the figures, or none.
+void requireWritten(std::ostream& stream) {
+  if (!stream.flush()) throw Error("cannot write to the standard output: is the disk full?");
 }
 
 std::string withoutDashes(const std::string& option) {
@@ -151,6 +159,7 @@ po::typed_value<std::vector<double>>* twoNumbers(std::vector<double>* target) {
 int runProgram(const std::string& program, const std::function<void()>& body) {
   try {
     body();
+    requireWritten(std::cout);
     return 0;
   } catch (const UsageError& error) {
     std::cerr << program << ": " << oneLine(error.what()) << " (see " << program << " --help)\n";

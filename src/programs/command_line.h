@@ -75,7 +75,8 @@ class CommandLine {
 boost::program_options::typed_value<std::vector<double>>* twoNumbers(std::vector<double>* target);
 
 /// Runs the body of a program and turns what it throws into the exit code: 0 done, 2 UsageError,
-/// 1 anything else, with one line `program: what` on stderr.
+/// 1 anything else, also a standard output that cannot be written; with one line `program: what` on
+/// stderr.
 int runProgram(const std::string& program, const std::function<void()>& body);
 
 }  // namespace mivo

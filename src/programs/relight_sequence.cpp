@@ -151,7 +151,7 @@ void run(int argc, char** argv) {
 
   const mivo::SequenceReader reader(in);
   if (!reader.notice().empty()) std::cerr << "relight_sequence: " << reader.notice() << "\n";
-  const std::vector<Image> color = listColor(in, mivo::listSequence(in));
+  const std::vector<Image> color = listColor(in, reader.listing());
   const std::size_t count = color.size();
   prepareFolder(in, out, force);
   copyRest(in, out, color, reader);

@@ -91,6 +91,7 @@ void run(int argc, char** argv) {
                       force ? mivo::Overwrite::kYes : mivo::Overwrite::kNo);
   const double first_stamp = writeFrames(reader, bag);
   writeTruth(truth, first_stamp, bag);
+  bag.close();
 }
 
 }  // namespace

@@ -165,7 +165,8 @@ void runTracking(const std::string& program, FrameSource& source, const Tracking
   print(std::cout, summary);
   const DepthParameters& depth = options.parameters.depth;
   requireTracked(summary, depth, source.depthUnit());
-  const std::string fault = findDepthFault(summary, depth, source.depthUnit());
+  const std::string fault =
+      summary.depth.findFault(depth, source.depthUnit(), DepthAccount::Expected::kRoom);
   if (!fault.empty()) std::cerr << program << ": note: " << fault << "\n";
 }
 

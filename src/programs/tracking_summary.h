@@ -10,6 +10,7 @@
 #include "mivo/core/frame.h"
 #include "mivo/core/parameters.h"
 #include "mivo/core/tracking_result.h"
+#include "session/depth_account.h"
 
 namespace mivo {
 
@@ -33,10 +34,7 @@ struct TrackingSummary {
   double rolling_shutter_readout = 0.0;  ///< s, at the end; 0: global shutter
   double depth_time_offset = 0.0;        ///< s, at the end: given or estimated
   std::vector<double> cpu_ms;  ///< of each frame, all threads, from decoded images to the pose
-  std::vector<double> depth_medians;  ///< m, of the frames that have depth
-  double depth_coverage = 0.0;        ///< part of the pixels with depth, summed over the frames
-  double depth_unit = 0.0;            ///< m, of 16-bit depth, of the last frame; 0: meters
-  CountByReason depth_storage;        ///< frames by how their depth seems to be stored, see below
+  DepthAccount depth;
 
   /// Counts a processed frame.
   void add(const Frame& frame, const TrackingResult& result, double cpu_ms);
@@ -48,15 +46,9 @@ struct TrackingSummary {
 /// Lines `name: value`.
 void print(std::ostream& stream, const TrackingSummary& summary);
 
-/// One line if something is wrong with the depth as a whole: there is none, its median is outside
-/// of the range of the tracker or unlikely in a room, or its bits are stored in an unusual way.
-/// With the median and the likely cause. Empty otherwise.
-/// @param depth_unit  where the unit of depth comes from, FrameSource::depthUnit()
-std::string findDepthFault(const TrackingSummary& summary, const DepthParameters& parameters,
-                           const std::string& depth_unit);
-
 /// Throws Error when no motion was measured although there was more than one frame, or when not
 /// even a keyframe could be made: says why and what depth there was.
+/// @param depth_unit  where the unit of depth comes from, FrameSource::depthUnit()
 void requireTracked(const TrackingSummary& summary, const DepthParameters& parameters,
                     const std::string& depth_unit);
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/core.hpp>
 #include <ostream>
 
 #include "mivo/core/error.h"
@@ -58,11 +59,20 @@ StreamReport reportOn(const Recording& recording, const std::string& name,
   return report;
 }
 
+Frame withMirroredImage(const Frame& frame) {
+  constexpr int kLeftAndRight = 1;  // change places
+  Frame mirrored = frame;
+  mirrored.image = cv::Mat();
+  cv::flip(frame.image, mirrored.image, kLeftAndRight);
+  return mirrored;
+}
+
 /// Decodes the frames: all, or evenly spread ones where there are many.
 void lookAtFrames(BagSource& source, BagReport& report) {
   const std::size_t step = std::max<std::size_t>(1, source.size() / kMostFrames);
   const std::size_t edge_step = std::max<std::size_t>(1, source.size() / kEdgeFrames);
   EdgeOffset edges;
+  EdgeOffset mirrored;
   Frame frame;
   FrameFault fault;
   for (std::size_t i = 0; i < source.size(); ++i) {
@@ -75,9 +85,12 @@ void lookAtFrames(BagSource& source, BagReport& report) {
       continue;
     }
     report.frames.push_back(lookAt(frame));
-    if (i % edge_step < step) edges.add(frame);
+    if (i % edge_step >= step) continue;
+    edges.add(frame);
+    mirrored.add(withMirroredImage(frame));
   }
-  report.edge_shift = edges.shift();
+  report.is_mirrored = mirrored.shift() && mirrored.clarity() > edges.clarity();
+  if (!report.is_mirrored) report.edge_shift = edges.shift();
 }
 
 std::size_t countBlurred(const std::vector<FrameLook>& frames) {
@@ -150,6 +163,11 @@ void warnOfImages(BagReport& report) {
         "color: depth is not registered, or by a wrong calibration",
         std::abs(report.edge_shift->x), report.edge_shift->x > 0.0 ? "left" : "right",
         std::abs(report.edge_shift->y), report.edge_shift->y > 0.0 ? "above" : "below"));
+  }
+  if (report.is_mirrored) {
+    warn(
+        "edges of depth lie where those of color would be if it were mirrored: one of the two is "
+        "(image_mirroring of the driver)");
   }
   const std::size_t jumps = countExposureJumps(report.frames);
   if (jumps > 0) warn(fmt::format("the exposure jumps {} times by more than 15 %", jumps));

@@ -38,7 +38,8 @@ struct BagReport {
   std::vector<FrameLook> frames;
   std::map<std::string, std::size_t> unreadable;  ///< frames, by the reason
   std::optional<EdgeOffset::Shift> edge_shift;    ///< pixels
-  std::vector<std::string> warnings;              ///< what is wrong, a line each
+  bool is_mirrored = false;           ///< color fits depth when left and right change places
+  std::vector<std::string> warnings;  ///< what is wrong, a line each
 };
 
 /// Reads a recording. Throws Error when it cannot be used at all.

@@ -60,7 +60,9 @@ BagPairs pairSorted(const std::vector<StreamedImage>& images) {
     streams[static_cast<std::size_t>(image.stream)].push_back(image.image);
   }
   for (std::vector<BagImage>& stream : streams) {
-    leaveOut(describe(StampFault::kLate), putInOrder(stream).doubled, result);
+    const StampOrder order = putInOrder(stream);
+    leaveOut(describe(StampFault::kLate), order.doubled, result);
+    leaveOut(describe(StampFault::kUnset), order.unset, result);
   }
   for (const auto& [i, j] : pairByStamp(stampsOf(streams[0]), stampsOf(streams[1]))) {
     result.pairs.push_back({streams[0][i], streams[1][j]});

@@ -18,13 +18,14 @@
 #include "ros/pose_conversion.h"
 #include "ros/stamp.h"
 #include "ros/topics.h"
+#include "session/median.h"
 #include "session/stamp_order.h"
 
 namespace mivo {
 namespace {
 
-// s, of depth against color in most pairs: nearly as far as to the image before or after.
-constexpr double kNotedPairOffset = 0.012;
+// Images that are looked at, one after the other, until one can be read.
+constexpr std::size_t kMostUnreadable = 100;
 
 /// rosbag could not read a message that its index names.
 struct DamagedBag {};
@@ -64,9 +65,8 @@ BagSource::BagSource(const std::vector<std::string>& paths, const RgbdTopics& wa
     findDepthGeometry(!wanted.depth.empty());
     take(range);
     frames_ = std::make_unique<FrameMaker>(isRectifiedTopic(topics_.color));
-    const ImagePair first = messagesOf(pairs_.front());
-    camera_ = toCamera(*first.camera_info, isRectifiedTopic(topics_.color),
-                       first.color->toColorImage().image.size());
+    camera_ = toCamera(*calibrations_.at(pairs_.front().color.stamp),
+                       isRectifiedTopic(topics_.color), sizeOfColor());
     tell(doubtOf(camera_));
   } catch (const std::exception& error) {
     throw Error(recording_->name() + ": " + error.what());
@@ -84,6 +84,11 @@ void BagSource::open(const std::vector<std::string>& paths, const RgbdTopics& wa
   tell(recording_->damage());
   try {
     topics_ = findTopics(recording_->contents(), wanted);
+    const std::set<std::string> others = otherCameras(recording_->contents(), topics_);
+    if (!others.empty()) {
+      tell(fmt::format("{} and {} are taken; --rgb and --depth choose another camera: {}",
+                       topics_.color, topics_.depth, fmt::join(others, ", ")));
+    }
     findPairs(readIndex(reader));
   } catch (const std::exception& error) {
     throw Error(recording_->name() + ": " + error.what());
@@ -121,6 +126,26 @@ BagSource::Index BagSource::readIndex(Recording::Reader reader) {
   return index;
 }
 
+/// Of the first frame that can be read: what is damaged costs its frame, not the recording.
+template <typename Read>
+auto BagSource::ofFirstReadable(const Read& read) const {
+  std::string fault;
+  for (std::size_t i = 0; i < std::min(pairs_.size(), kMostUnreadable); ++i) {
+    try {
+      return read(pairs_[i]);
+    } catch (const std::exception& error) {
+      if (fault.empty()) fault = error.what();
+    }
+  }
+  throw Error(fault);
+}
+
+cv::Size BagSource::sizeOfColor() const {
+  if (!clock_fault_.empty()) throw Error(clock_fault_);
+  return ofFirstReadable(
+      [](const Pair& pair) { return readImage(pair.color.recorded)->toColorImage().image.size(); });
+}
+
 void BagSource::tell(const std::string& text) {
   if (!text.empty()) notice_ += (notice_.empty() ? "" : "; ") + text;
 }
@@ -155,22 +180,13 @@ void BagSource::findPairs(const Index& index) {
     tell("the images were recorded in another order than that of their stamps, and are sorted");
   }
   requirePairs(index);
-  tellPairOffset();
+  tell(describePairOffset(pairOffset()));
 }
 
 double BagSource::pairOffset() const {
   std::vector<double> offsets;
   for (const Pair& pair : pairs_) offsets.push_back(pair.depth.stamp - pair.color.stamp);
-  const auto middle = offsets.begin() + static_cast<std::ptrdiff_t>(offsets.size() / 2);
-  std::nth_element(offsets.begin(), middle, offsets.end());
-  return *middle;
-}
-
-void BagSource::tellPairOffset() {
-  const double offset = pairOffset();
-  if (std::abs(offset) < kNotedPairOffset) return;
-  tell(fmt::format("depth is stamped {:.1f} ms {} than the color images that it is paired with",
-                   1000.0 * std::abs(offset), offset > 0.0 ? "later" : "earlier"));
+  return medianOf(std::move(offsets));
 }
 
 void BagSource::requirePairs(const Index& index) const {
@@ -257,9 +273,9 @@ FrameSource::Status BagSource::next(Frame& frame, FrameFault& fault) {
 double BagSource::depthUnitsPerMeter() const {
   constexpr double kMillimeters = 1000.0;
   constexpr double kOfMeters = 5000.0;
-  return readImage(pairs_.front().depth.recorded)->toDepthImage().image.type() == CV_16UC1
-             ? kMillimeters
-             : kOfMeters;
+  const int type = ofFirstReadable(
+      [](const Pair& pair) { return readImage(pair.depth.recorded)->toDepthImage().image.type(); });
+  return type == CV_16UC1 ? kMillimeters : kOfMeters;
 }
 
 Trajectory BagSource::groundTruth() const {

@@ -14,6 +14,7 @@
 #include "ros/calibration_history.h"
 #include "ros/message_frame.h"
 #include "ros/recording.h"
+#include "session/depth_account.h"
 
 namespace mivo {
 
@@ -38,7 +39,7 @@ class BagSource : public FrameSource {
   Status next(Frame& frame, FrameFault& fault) override;
   bool startsAnew() const override { return starts_anew_; }
 
-  std::string depthUnit() const override { return "16UC1 is millimeters, 32FC1 meters"; }
+  std::string depthUnit() const override { return kDepthUnitOfMessages; }
   const std::string& notice() const override { return notice_; }
   const std::map<std::string, std::size_t>& leftOut() const override { return left_out_; }
 
@@ -76,9 +77,11 @@ class BagSource : public FrameSource {
   void open(const std::vector<std::string>& paths, const RgbdTopics& wanted,
             Recording::Reader reader);
   Index readIndex(Recording::Reader reader);
+  template <typename Read>
+  auto ofFirstReadable(const Read& read) const;
+  cv::Size sizeOfColor() const;
   void findPairs(const Index& index);
   void requirePairs(const Index& index) const;
-  void tellPairOffset();
   void take(const FrameRange& range);
   void tell(const std::string& text);
   void findDepthGeometry(bool is_depth_chosen);

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "mivo/core/error.h"
+#include "ros/leading_slash.h"
 #include "ros/topics.h"
 
 namespace mivo {
@@ -51,18 +52,31 @@ constexpr Pair kKnownPairs[] = {
 
 constexpr std::array<const char*, 3> kTransports = {"", "/compressed", "/compressedDepth"};
 
-bool isImage(const BagContents& contents, const std::string& topic) {
-  const auto entry = contents.find(topic);
-  return entry != contents.end() &&
-         (entry->second == kImageType || entry->second == kCompressedType);
+bool isImage(const std::string& type) {
+  return type == kImageType || type == kCompressedType;
 }
 
-/// The topic itself or a compressed form of it; empty when the bag has neither.
+/// A topic, which the bag may spell with or without its first slash.
+BagContents::const_iterator find(const BagContents& contents, const std::string& topic) {
+  const auto entry = contents.find(topic);
+  if (entry != contents.end()) return entry;
+  const std::string other = withoutSlash(topic);
+  return contents.find(other == topic ? '/' + topic : other);
+}
+
+/// The topic itself or a compressed form of it, as the bag spells it; empty when the bag has
+/// neither.
 std::string findImage(const BagContents& contents, const std::string& topic) {
   for (const char* transport : kTransports) {
-    if (isImage(contents, topic + transport)) return topic + transport;
+    const auto entry = find(contents, topic + transport);
+    if (entry != contents.end() && isImage(entry->second)) return entry->first;
   }
   return {};
+}
+
+/// Whether a topic, in whatever form, is one of those that layouts name.
+bool isForm(const std::string& topic, const std::string& known) {
+  return withoutSlash(withoutTransport(topic)) == withoutSlash(known);
 }
 
 /// Where drivers and tools put the calibration of a color topic.
@@ -74,16 +88,30 @@ std::string findCameraInfo(const BagContents& contents, const std::string& color
   if (at != std::string::npos) throttled.replace(at, image.size(), "_camera_info");
   for (const std::string& topic :
        {base.substr(0, base.rfind('/') + 1) + "camera_info", throttled}) {
-    const auto entry = contents.find(topic);
-    if (entry != contents.end() && entry->second == kCameraInfoType) return topic;
+    const auto entry = find(contents, topic);
+    if (entry != contents.end() && entry->second == kCameraInfoType) return entry->first;
   }
   return {};
+}
+
+/// What is before the last slash: a driver publishes the same images there, raw, rectified, gray.
+std::string folderOf(const std::string& topic) {
+  const std::string base = withoutTransport(topic);
+  return base.substr(0, base.rfind('/') + 1);
+}
+
+/// Whether a topic may be one of color, by what drivers call the others.
+bool isColorName(const std::string& topic) {
+  constexpr std::array<const char*, 6> kOthers = {"depth", "/ir/",       "infra",
+                                                  "disp",  "confidence", "mask"};
+  return std::none_of(kOthers.begin(), kOthers.end(),
+                      [&](const char* word) { return topic.find(word) != std::string::npos; });
 }
 
 std::string listTopics(const BagContents& contents) {
   std::string list;
   for (const auto& [topic, type] : contents) {
-    if (type == kImageType || type == kCompressedType || type == kCameraInfoType) {
+    if (isImage(type) || type == kCameraInfoType) {
       list += (list.empty() ? "" : ", ") + topic;
     }
   }
@@ -108,8 +136,7 @@ std::string withoutTransport(const std::string& topic) {
 
 std::string layoutOf(const RgbdTopics& topics) {
   for (const Pair& pair : kKnownPairs) {
-    if (withoutTransport(topics.color) == pair.color &&
-        withoutTransport(topics.depth) == pair.depth) {
+    if (isForm(topics.color, pair.color) && isForm(topics.depth, pair.depth)) {
       return pair.layout;
     }
   }
@@ -168,10 +195,9 @@ RgbdTopics findTopics(const BagContents& contents, const RgbdTopics& given) {
     const std::string depth = wanted.depth.empty() ? findImage(contents, pair.depth) : wanted.depth;
     if (color.empty() || depth.empty()) continue;
     // A color topic of the user's choice goes with the depth topic of its own driver first.
-    if (!wanted.color.empty() && withoutTransport(wanted.color) != pair.color &&
+    if (!wanted.color.empty() && !isForm(wanted.color, pair.color) &&
         std::any_of(std::begin(kKnownPairs), std::end(kKnownPairs), [&](const Pair& other) {
-          return withoutTransport(wanted.color) == other.color &&
-                 !findImage(contents, other.depth).empty();
+          return isForm(wanted.color, other.color) && !findImage(contents, other.depth).empty();
         })) {
       continue;
     }
@@ -184,14 +210,25 @@ RgbdTopics findTopics(const BagContents& contents, const RgbdTopics& given) {
            "--depth");
   }
   if (topics.camera_info.empty()) topics.camera_info = findCameraInfo(contents, topics.color);
-  const auto info = contents.find(topics.camera_info);
+  const auto info = find(contents, topics.camera_info);
   if (info == contents.end() || info->second != kCameraInfoType) {
     refuse(contents, topics.camera_info.empty()
                          ? "no camera_info beside " + topics.color + "; name it with --camera-info"
                          : "the bag has no camera_info on the topic " + topics.camera_info);
   }
+  topics.camera_info = info->first;
   if (topics.depth_info.empty()) topics.depth_info = findCameraInfo(contents, topics.depth);
   return topics;
+}
+
+std::set<std::string> otherCameras(const BagContents& contents, const RgbdTopics& topics) {
+  std::set<std::string> others;
+  for (const auto& [topic, type] : contents) {
+    if (isImage(type) && isColorName(topic) && folderOf(topic) != folderOf(topics.color)) {
+      others.insert(withoutTransport(topic));
+    }
+  }
+  return others;
 }
 
 }  // namespace mivo

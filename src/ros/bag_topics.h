@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -46,5 +47,8 @@ using BagContents = std::map<std::string, std::string>;
 /// holds, raw or compressed, registered ones first, and the camera_info beside the topics. Throws
 /// Error, listing the image topics of the bag, when nothing fits or a wanted topic is not there.
 RgbdTopics findTopics(const BagContents& contents, const RgbdTopics& wanted);
+
+/// Color topics of other cameras than the one in `topics`, without their transports.
+std::set<std::string> otherCameras(const BagContents& contents, const RgbdTopics& topics);
 
 }  // namespace mivo

@@ -107,34 +107,34 @@ std::string storedOrder(const std::string& encoding) {
   return encoding == encodings::RGB8 ? "bgr8" : encoding == encodings::RGB16 ? "bgr16" : "";
 }
 
-}  // namespace
-
-BagWriter::BagWriter(const std::string& path, const BagLayout& layout, const SequenceCamera& camera,
-                     BagImages images, Overwrite overwrite)
-    : path_(path), layout_(layout), camera_(camera), images_(images) {
-  camera.camera.validate();
-  if (layout.rectified && !camera.camera.distortion.isZero()) {
+/// The path, when a bag with this camera may be written there. Throws Error.
+const std::string& checkedPath(const std::string& path, const BagLayout& layout,
+                               const Camera& camera, Overwrite overwrite) {
+  camera.validate();
+  if (layout.rectified && !camera.distortion.isZero()) {
     throw Error("layout " + layout.name +
                 " has rectified images, but the camera has distortion; choose another layout");
   }
   refuseExisting(path, overwrite);
-  camera_info_ = toCameraInfo(camera.camera);
+  return path;
+}
+
+}  // namespace
+
+BagWriter::BagWriter(const std::string& path, const BagLayout& layout, const SequenceCamera& camera,
+                     BagImages images, Overwrite overwrite)
+    : layout_(layout),
+      camera_(camera),
+      images_(images),
+      camera_info_(toCameraInfo(camera.camera)),
+      bag_(checkedPath(path, layout, camera.camera, overwrite)) {
   camera_info_.header.frame_id = layout.optical_frame;
-  try {
-    bag_.open(path, rosbag::bagmode::Write);
-  } catch (const std::exception& error) {
-    throw Error(path + " cannot be written: " + error.what());
-  }
 }
 
 template <typename Message>
 void BagWriter::write(const std::string& topic, double stamp, const Message& message) {
-  try {
-    // A bag cannot hold a receipt time of zero, though a stamp may be zero.
-    bag_.write(topic, std::max(toTime(stamp), ros::TIME_MIN), message);
-  } catch (const rosbag::BagException& error) {
-    throw Error(path_ + " cannot be written: " + error.what());
-  }
+  // A bag cannot hold a receipt time of zero, though a stamp may be zero.
+  bag_.write(topic, std::max(toTime(stamp), ros::TIME_MIN), message);
 }
 
 template <typename Message>
@@ -146,11 +146,7 @@ void BagWriter::writeLatched(const std::string& topic, double stamp, const Messa
   (*header)["message_definition"] = ros::message_traits::Definition<Message>::value();
   (*header)["latching"] = "1";
   (*header)["callerid"] = "/mivo";
-  try {
-    bag_.write(topic, std::max(toTime(stamp), ros::TIME_MIN), message, header);
-  } catch (const rosbag::BagException& error) {
-    throw Error(path_ + " cannot be written: " + error.what());
-  }
+  bag_.write(topic, std::max(toTime(stamp), ros::TIME_MIN), message, header);
 }
 
 void BagWriter::writeStatic(double stamp, const std::string& parent, const std::string& child,

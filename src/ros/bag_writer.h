@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 
-#include <rosbag/bag.h>
 #include <sensor_msgs/CameraInfo.h>
 
 #include <opencv2/core/mat.hpp>
@@ -10,6 +9,7 @@
 #include "mivo/io/camera_file.h"
 #include "mivo/trajectory/stamped_pose.h"
 #include "ros/bag_topics.h"
+#include "ros/output_bag.h"
 
 namespace mivo {
 
@@ -18,8 +18,8 @@ namespace mivo {
 enum class BagImages { kRaw, kCompressed };
 
 /// Writes an RGB-D recording with the topics, encodings and frames of a layout. The static
-/// transform from camera_link to the optical frame is part of it. The bag is complete once the
-/// object is gone.
+/// transform from camera_link to the optical frame is part of it. The bag is complete once it is
+/// closed.
 class BagWriter {
  public:
   /// Throws Error when the bag exists and may not be replaced, or the camera has a distortion that
@@ -40,6 +40,9 @@ class BagWriter {
   /// written too, so that path and odometry lie upon each other; returns whether it was.
   bool writeGroundTruth(const Trajectory& truth, double first_stamp);
 
+  /// Throws Error when the end could not be written.
+  void close() { bag_.close(); }
+
  private:
   template <typename Message>
   void write(const std::string& topic, double stamp, const Message& message);
@@ -49,12 +52,11 @@ class BagWriter {
                    const Eigen::Isometry3d& T_parent_child);
   void checkImage(const cv::Mat& image, const char* what) const;
 
-  std::string path_;
   BagLayout layout_;
   SequenceCamera camera_;
   BagImages images_;
   sensor_msgs::CameraInfo camera_info_;
-  rosbag::Bag bag_;
+  OutputBag bag_;
   bool has_static_ = false;
 };
 

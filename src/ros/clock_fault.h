@@ -20,4 +20,13 @@ inline std::string describeClockFault(double offset) {
       std::abs(offset), offset > 0.0 ? "later" : "earlier");
 }
 
+/// A line for pairs whose depth is stamped so much later than color (s) that the image before or
+/// after is nearly as close; empty for less.
+inline std::string describePairOffset(double offset) {
+  constexpr double kNoted = 0.012;  // s
+  if (std::abs(offset) < kNoted) return {};
+  return fmt::format("depth is stamped {:.1f} ms {} than the color images that it is paired with",
+                     1000.0 * std::abs(offset), offset > 0.0 ? "later" : "earlier");
+}
+
 }  // namespace mivo

@@ -8,6 +8,7 @@
 #include <array>
 
 #include "ros/bag_topics.h"
+#include "ros/leading_slash.h"
 #include "ros/pose_conversion.h"
 #include "ros/topics.h"
 
@@ -15,10 +16,6 @@ namespace mivo {
 namespace {
 
 constexpr char kTransforms[] = "/tf";
-
-std::string withoutSlash(const std::string& frame) {
-  return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
-}
 
 void add(const RecordedMessage& message, tf2::BufferCore& tree) {
   if (!message.is<tf2_msgs::TFMessage>()) return;
@@ -56,7 +53,7 @@ std::optional<Eigen::Isometry3d> findTransform(const Recording& recording,
   const std::string from = withoutSlash(source);
   tf2::BufferCore tree;
   for (const char* topic : {topics::kStaticTransforms, kTransforms}) {
-    for (const RecordedMessage& message : recording.messages({topic})) {
+    for (const RecordedMessage& message : recording.messages({topic, withoutSlash(topic)})) {
       if (topic == kTransforms && tree.canTransform(to, from, ros::Time(0))) break;
       add(message, tree);
     }

@@ -17,10 +17,13 @@
 namespace mivo {
 namespace {
 
-constexpr double kSilence = 5.0;  // s without a pair before a warning
-// After this long without a message no better partner is expected for waiting images.
-constexpr double kIdle = 0.5;          // s
+constexpr double kSilence = 5.0;       // s without a pair before a warning
 constexpr double kWatchPeriod = 0.25;  // s
+// Looks in a row without a new message after which no better partner is expected for waiting
+// images. Looks are counted, not seconds: a node that was not scheduled has messages before it.
+// Where no frame may be lost, a stalled player has more time.
+constexpr int kIdleLooks = 2;
+constexpr int kIdleLooksWithoutLoss = 8;
 
 // Pairs that wait for their calibration, which comes with the image or not at all.
 constexpr std::size_t kMostWaiting = 3;
@@ -207,13 +210,14 @@ void FrameInput::keepEarly(ImagePair pair) {
 }
 
 void FrameInput::watch() {
-  bool idle = false;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    const ros::WallTime last = std::max(countOf(ImageStream::kColor).last_arrival,
-                                        countOf(ImageStream::kDepth).last_arrival);
-    idle = (ros::WallTime::now() - last).toSec() > kIdle;
+    const std::uint64_t messages =
+        countOf(ImageStream::kColor).messages + countOf(ImageStream::kDepth).messages;
+    idle_looks_ = messages == messages_seen_ ? idle_looks_ + 1 : 0;
+    messages_seen_ = messages;
   }
+  const bool idle = idle_looks_ >= (parameters_.drop_frames ? kIdleLooks : kIdleLooksWithoutLoss);
   if (idle && pairer_.numWaiting(ImageStream::kColor) > 0 &&
       pairer_.numWaiting(ImageStream::kDepth) > 0) {
     pairer_.flush();

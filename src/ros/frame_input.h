@@ -83,9 +83,11 @@ class FrameInput {
   ros::Subscriber depth_info_subscriber_;
   ros::WallTimer timer_;
 
-  std::deque<ImagePair> waiting_;  // for the calibration of their own stamp; the thread's own
-  ros::Time last_given_;           // stamp of the last pair that had it
-  FrameQueue<ImagePair> early_;    // pairs that arrived before the calibration
+  std::deque<ImagePair> waiting_;    // for the calibration of their own stamp; the thread's own
+  ros::Time last_given_;             // stamp of the last pair that had it
+  FrameQueue<ImagePair> early_;      // pairs that arrived before the calibration
+  std::uint64_t messages_seen_ = 0;  // at the last look of watch()
+  int idle_looks_ = 0;
 
   mutable std::mutex mutex_;  // guards what follows
   std::array<InputCount, 2> image_counts_;

@@ -69,12 +69,21 @@ void EdgeOffset::add(const Frame& frame) {
   addRows(frame.image.t(), depth.t(), rows_);
 }
 
-std::optional<double> EdgeOffset::peak(const Score& score) {
-  if (score.edges < kEnoughEdges) return std::nullopt;
-  const auto highest = std::max_element(score.sum.begin() + 1, score.sum.end() - 1);
+/// The highest sum over their mean.
+double EdgeOffset::clarity(const Score& score) {
+  const double highest = *std::max_element(score.sum.begin() + 1, score.sum.end() - 1);
   double total = 0.0;
   for (const double sum : score.sum) total += sum;
-  if (*highest * static_cast<double>(score.sum.size()) < kClearPeak * total) return std::nullopt;
+  return total > 0.0 ? highest * static_cast<double>(score.sum.size()) / total : 1.0;
+}
+
+double EdgeOffset::clarity() const {
+  return std::min(clarity(columns_), clarity(rows_));
+}
+
+std::optional<double> EdgeOffset::peak(const Score& score) {
+  if (score.edges < kEnoughEdges || clarity(score) < kClearPeak) return std::nullopt;
+  const auto highest = std::max_element(score.sum.begin() + 1, score.sum.end() - 1);
   const double before = *(highest - 1);
   const double after = *(highest + 1);
   const double curvature = before - 2.0 * *highest + after;

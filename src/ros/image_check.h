@@ -34,6 +34,9 @@ class EdgeOffset {
   };
   std::optional<Shift> shift() const;
 
+  /// How far the best shift stands out: 1 when it fits no better than the others.
+  double clarity() const;
+
  private:
   static constexpr int kReach = 20;  // pixels, of a shift that is looked for
   struct Score {
@@ -41,6 +44,7 @@ class EdgeOffset {
     std::size_t edges = 0;
   };
   static void addRows(const cv::Mat& image, const cv::Mat& depth, Score& score);
+  static double clarity(const Score& score);
   static std::optional<double> peak(const Score& score);
 
   Score columns_;  // vertical edges, moved along rows

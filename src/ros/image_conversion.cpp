@@ -68,10 +68,11 @@ bool isForeignByteOrder(const sensor_msgs::Image& message) {
   return (message.is_bigendian != 0) == little_endian;
 }
 
-/// The pixels in this machine's byte order. cv_bridge swaps the bytes but loses the type.
-cv::Mat swapped(const sensor_msgs::Image& message, int type) {
+/// The pixels in this machine's byte order and side by side. cv_bridge swaps the bytes but loses
+/// the type, and wants rows that begin at a whole element.
+cv::Mat copied(const sensor_msgs::Image& message, int type) {
   cv::Mat image(static_cast<int>(message.height), static_cast<int>(message.width), type);
-  const std::size_t bytes = image.elemSize1();
+  const std::size_t bytes = isForeignByteOrder(message) ? image.elemSize1() : 1;
   for (int y = 0; y < image.rows; ++y) {
     const std::uint8_t* from = message.data.data() + static_cast<std::size_t>(y) * message.step;
     std::uint8_t* to = image.ptr(y);
@@ -83,11 +84,14 @@ cv::Mat swapped(const sensor_msgs::Image& message, int type) {
   return image;
 }
 
-/// The pixels, converted only when `target` names another encoding or the byte order is foreign.
+/// The pixels, converted only when `target` names another encoding or they lie otherwise in memory.
 cv::Mat pixels(const sensor_msgs::Image& message, const std::string& target = {}) {
   try {
     const int type = cv_bridge::getCvType(message.encoding);
-    if (CV_ELEM_SIZE1(type) > 1 && isForeignByteOrder(message)) return swapped(message, type);
+    const std::size_t element = CV_ELEM_SIZE1(type);
+    if (element > 1 && (isForeignByteOrder(message) || message.step % element != 0)) {
+      return copied(message, type);
+    }
     return cv_bridge::toCvShare(message, boost::shared_ptr<void const>(), target)->image;
   } catch (const std::exception& error) {
     refuse("image of encoding " + message.encoding + ": " + error.what());

@@ -7,13 +7,16 @@
 #include <string>
 
 #include "core/camera_doubt.h"
+#include "ros/clock_fault.h"
+#include "ros/leading_slash.h"
+#include "session/median.h"
 
 namespace mivo {
 namespace {
 
 constexpr double kClockDifference = 10.0;  // s between stamps and clock: more than any latency
 constexpr int kFramesOffClock = 10;        // in a row, before the warning
-constexpr double kPlausibleDepth[] = {0.1, 30.0};  // m, of the median
+constexpr std::size_t kFirstFrames = 15;   // half a second of an Xtion: enough to judge by
 
 }  // namespace
 
@@ -33,9 +36,11 @@ void InputWarnings::lookAtFrames(const ImagePair& pair, TransformSource& transfo
   const std_msgs::Header& color = pair.color->header;
   // In doubles: times that do not belong together may differ by more than a Duration holds.
   lookAtClock(ros::Time::now().toSec() - color.stamp.toSec());
+  lookAtOffset(pair.depth->header.stamp.toSec() - color.stamp.toSec());
   const std::string& depth_frame = pair.depth->header.frame_id;
-  if (parameters_.depth_registered == "auto" && !pair.depth_geometry &&
-      depth_frame != color.frame_id && !has_warned_of_frames_) {
+  const bool is_other = withoutSlash(depth_frame) != withoutSlash(color.frame_id);
+  if (parameters_.depth_registered == "auto" && !pair.depth_geometry && is_other &&
+      !has_warned_of_frames_) {
     has_warned_of_frames_ = true;
     ROS_WARN(
         "color images have the frame_id %s, depth images %s: depth must be registered to the "
@@ -67,16 +72,21 @@ void InputWarnings::lookAtCamera(const Camera& camera) {
   }
 }
 
-void InputWarnings::lookAtDepth(const DepthSample& depth) {
-  if (depth.median <= 0.0 || has_warned_of_depth_ ||
-      (depth.median >= kPlausibleDepth[0] && depth.median <= kPlausibleDepth[1])) {
-    return;
-  }
-  has_warned_of_depth_ = true;
-  ROS_WARN(
-      "the median depth is %g m: 16UC1 is read as millimeters, 32FC1 as meters; check the unit of "
-      "the driver",
-      depth.median);
+void InputWarnings::lookAtDepth(const Frame& frame, const DepthParameters& parameters) {
+  if (depth_.frames() == kFirstFrames) return;
+  depth_.add(frame);
+  if (depth_.frames() < kFirstFrames) return;
+  const std::string fault =
+      depth_.findFault(parameters, kDepthUnitOfMessages, DepthAccount::Expected::kAnything);
+  if (!fault.empty()) ROS_WARN_STREAM(fault);
+}
+
+void InputWarnings::lookAtOffset(double offset) {
+  if (pair_offsets_.size() == kFirstFrames) return;
+  pair_offsets_.push_back(offset);
+  if (pair_offsets_.size() < kFirstFrames) return;
+  const std::string text = describePairOffset(medianOf(pair_offsets_));
+  if (!text.empty()) ROS_WARN_STREAM(text);
 }
 
 }  // namespace mivo

@@ -67,6 +67,7 @@ OdometryNode::~OdometryNode() {
   input_spinner_->stop();
   service_spinner_->stop();
   diagnostics_timer_.stop();
+  input_queue_.callAvailable();  // what has arrived, and the spinner has not come to
   input_->stop();
   frames_.close();
   worker_.join();
@@ -192,9 +193,8 @@ void OdometryNode::track(const ImagePair& pair, const MessageFrame& input, doubl
   }
   publishStatus(result, account);
   if (result.isRefused()) return;
-  const DepthSample depth = sampleDepth(input.frame);
-  warnings_.lookAtDepth(depth);
-  diagnostics_.addFrame(toMessage(result, account), depth);
+  warnings_.lookAtDepth(input.frame, session_.parameters().depth);
+  diagnostics_.addFrame(toMessage(result, account), sampleDepth(input.frame));
 }
 
 void OdometryNode::publishStatus(const TrackingResult& result, FrameAccount& account) {

@@ -18,6 +18,11 @@ namespace fs = std::filesystem;
 constexpr char kToRos1[] =
     "convert it first: pip install rosbags, then rosbags-convert --src PATH --dst FILE.bag";
 
+// What packed files begin with.
+constexpr std::pair<const char*, const char*> kPackers[] = {
+    {"\x1f\x8b", "gzip"}, {"BZh", "bzip2"},       {"\xfd\x37zXZ", "xz"}, {"PK\x03\x04", "zip"},
+    {"7z\xbc\xaf", "7z"}, {"(\xb5/\xfd", "zstd"}, {"Rar!", "rar"}};
+
 bool hasRos2Files(const fs::path& folder) {
   if (fs::exists(folder / "metadata.yaml")) return true;
   const fs::directory_iterator entries(folder);
@@ -37,6 +42,9 @@ std::string otherFormat(const std::string& head) {
   if (begins("#ROSRECORD") || begins("#ROSBAG V1")) {
     return "is a bag of an old version: rosbag fix writes one of version 2.0";
   }
+  for (const auto& [magic, name] : kPackers) {
+    if (begins(magic)) return std::string("is packed by ") + name + ": unpack it first";
+  }
   if (!begins("#ROSBAG V2")) return "is no bag";
   return {};
 }
@@ -50,6 +58,11 @@ void requireBag(const std::string& path) {
     refuse(hasRos2Files(path) ? std::string("is a recording of ROS 2 (a folder): ") + kToRos1
                               : "is a folder; name the bags themselves, or use run_sequence for a "
                                 "folder of images");
+  }
+  if (fs::is_fifo(path) || fs::is_character_file(path)) {
+    refuse(
+        "is a pipe or a device; a bag is not read from its beginning to its end: copy it to a "
+        "file");
   }
   errno = 0;
   std::ifstream file(path, std::ios::binary);

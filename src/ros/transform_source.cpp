@@ -3,6 +3,7 @@
 
 #include <ros/console.h>
 
+#include "ros/leading_slash.h"
 #include "ros/pose_conversion.h"
 
 namespace mivo {
@@ -11,11 +12,6 @@ namespace {
 constexpr double kReminderPeriod = 10.0;  // s
 constexpr double kPollPeriod = 0.001;     // s
 constexpr double kIdentityTolerance = 1e-6;
-
-/// tf2 accepts only frames without a leading slash; old bags have one.
-std::string withoutSlash(const std::string& frame) {
-  return !frame.empty() && frame.front() == '/' ? frame.substr(1) : frame;
-}
 
 /// An optical frame looks along z, a body frame along x: equal axes mean a missing rotation.
 void warnOfMissingRotation(const Eigen::Isometry3d& T_base_camera, const std::string& base,

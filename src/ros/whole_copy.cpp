@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "ros/whole_copy.h"
 
-#include <rosbag/bag.h>
-
-#include "mivo/core/error.h"
+#include "ros/output_bag.h"
 #include "ros/recording.h"
 
 namespace mivo {
@@ -26,15 +24,11 @@ bool isReadable(const Recording& recording) {
 }
 
 void writeAll(const Recording& recording, const std::string& path) {
-  try {
-    rosbag::Bag bag(path, rosbag::bagmode::Write);
-    for (const RecordedMessage& message : allMessages(recording)) {
-      bag.write(message.topic(), message.time(), *message.readAny());
-    }
-    bag.close();
-  } catch (const rosbag::BagException& error) {
-    throw Error("cannot write " + path + ": " + error.what());
+  OutputBag bag(path);
+  for (const RecordedMessage& message : allMessages(recording)) {
+    bag.write(message.topic(), message.time(), *message.readAny());
   }
+  bag.close();
 }
 
 }  // namespace

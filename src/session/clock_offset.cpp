@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "session/clock_offset.h"
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
+
+#include "session/median.h"
 
 namespace mivo {
 namespace {
@@ -12,12 +13,6 @@ constexpr std::size_t kSamples = 60;  // two seconds of an Xtion
 constexpr std::size_t kEnough = 10;
 // Stamps and arrivals that pass at rates further apart are not both of real time.
 constexpr double kRateTolerance = 0.1;
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 }  // namespace
 
@@ -37,7 +32,7 @@ std::optional<double> ClockOffset::seconds() const {
     if (!(std::abs(passed - waited) <= kRateTolerance * waited)) return std::nullopt;
     std::vector<double> leads;
     for (const Sample& sample : samples) leads.push_back(sample.stamp - sample.arrival);
-    lead[i] = median(std::move(leads));
+    lead[i] = medianOf(std::move(leads));
   }
   return lead[1] - lead[0];
 }

@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "session/median.h"
+
 namespace mivo {
 namespace {
 
@@ -28,12 +30,6 @@ constexpr std::size_t kDifferentReadings = 4;
 double depthAt(const Frame& frame, int x, int y) {
   return frame.depth.type() == CV_16UC1 ? frame.depth.at<std::uint16_t>(y, x) * frame.depth_unit
                                         : static_cast<double>(frame.depth.at<float>(y, x));
-}
-
-double medianOf(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 std::uint16_t rotatedLeft(std::uint16_t value) {

@@ -6,18 +6,28 @@
 #include <optional>
 #include <utility>
 
+#include "session/stamp_order.h"
+
 namespace mivo {
 
 /// Why a frame has no place in time.
 enum class StampFault {
-  kLate,   ///< not newer than the frame before it
-  kAstray  ///< far ahead of the frames before and after it
+  kLate,    ///< not newer than the frame before it
+  kAstray,  ///< far ahead of the frames before and after it
+  kUnset    ///< zero, before times of day or among zeros: nobody has set it
 };
 
 /// In words, the same for all frames with the fault.
 inline const char* describe(StampFault fault) {
-  return fault == StampFault::kLate ? "stamp is not newer than that of the frame before"
-                                    : "stamp is far ahead of the frames before and after it";
+  switch (fault) {
+    case StampFault::kLate:
+      return "stamp is not newer than that of the frame before";
+    case StampFault::kAstray:
+      return "stamp is far ahead of the frames before and after it";
+    case StampFault::kUnset:
+      break;
+  }
+  return "stamp is zero";
 }
 
 /// Whose stamps are believed, frame by frame: the rule of every input of mivo. Frames go out in
@@ -26,6 +36,8 @@ inline const char* describe(StampFault fault) {
 ///    was set back (a looped bag, a restarted driver): with the last of them a new time begins.
 ///  - A frame that is far ahead waits for the next one, which either goes on from there (a pause,
 ///    or a clock that was set), or shows that its stamp is wrong.
+///  - A first frame of stamp zero waits for the next one, too: a recording may begin at zero, but
+///    zeros before times of day, or more than one, are stamps that nobody has set.
 template <typename Item>
 class FrameOrder {
  public:
@@ -38,6 +50,11 @@ class FrameOrder {
 
   /// @param stamp  s
   void push(double stamp, Item item) {
+    if (stamp == 0.0 && !last_) {
+      takeZero(item);
+      return;
+    }
+    if (zero_) settleZero(stamp > kTimeOfDay);
     if (last_ && stamp <= *last_) {
       takeLate(stamp, item);
       return;
@@ -61,17 +78,17 @@ class FrameOrder {
 
   /// Nothing is to come, or not for a while: what waits goes out.
   void flush() {
+    if (zero_) settleZero(false);
     if (!waiting_) return;
     std::pair<double, Item> frame = std::move(*waiting_);
     waiting_.reset();
     give(frame.first, frame.second, false);
   }
 
-  bool isWaiting() const { return waiting_.has_value(); }
-
   /// Forgets all stamps: what comes next begins a time of its own.
   void restart() {
     waiting_.reset();
+    zero_.reset();
     last_.reset();
     late_.count = 0;
   }
@@ -89,6 +106,26 @@ class FrameOrder {
     int count = 0;
     double last = 0.0;
   };
+
+  void takeZero(Item& item) {
+    if (zero_) {
+      on_drop_(item, StampFault::kUnset);
+      has_more_zeros_ = true;
+      return;
+    }
+    zero_.emplace(std::move(item));
+    has_more_zeros_ = false;
+  }
+
+  void settleZero(bool is_before_times_of_day) {
+    std::optional<Item> frame;
+    frame.swap(zero_);
+    if (is_before_times_of_day || has_more_zeros_) {
+      on_drop_(*frame, StampFault::kUnset);
+    } else {
+      give(0.0, *frame, false);
+    }
+  }
 
   void takeLate(double stamp, Item& item) {
     const bool agrees =
@@ -113,6 +150,9 @@ class FrameOrder {
   OnDrop on_drop_;
   std::optional<double> last_;  // stamp of the last frame that went out
   std::optional<std::pair<double, Item>> waiting_;
+  std::optional<Item>
+      zero_;  // the first frame, while its stamp of zero may be one that nobody has set
+  bool has_more_zeros_ = false;
   Late late_;
 };
 

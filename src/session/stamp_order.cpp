@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "mivo/core/error.h"
+#include "session/median.h"
 
 namespace mivo {
 namespace {
@@ -17,15 +18,6 @@ constexpr double kLongestGap = 10.0;
 // be days, or hours, apart; a camera of 1 to 200 Hz has these gaps in nano- and microseconds.
 constexpr double kNanosecondGap = 1e6;
 constexpr double kMicrosecondGap = 4e3;
-// s; stamps beyond are times of day: a clock that began with the recording ran for 11 days.
-constexpr double kTimeOfDay = 1e6;
-
-/// Of values that are not empty.
-double medianOf(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 /// Between stamps that follow each other and differ; 0 when none do.
 double medianGap(std::vector<double> stamps) {

@@ -9,6 +9,9 @@
 
 namespace mivo {
 
+/// s; stamps beyond are times of day: a clock that began with the recording ran for 11 days.
+constexpr double kTimeOfDay = 1e6;
+
 /// What putInOrder() had to change.
 struct StampOrder {
   double unit = 1.0;  ///< s, of the stamps as they were

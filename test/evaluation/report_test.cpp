@@ -30,6 +30,17 @@ double valueOf(const std::vector<Figure>& figures, const std::string& name) {
   return std::nan("");
 }
 
+TEST(ReportTest, PosesOfAnotherTimeCoverNothing) {
+  const Trajectory truth = straight(0.5, 0.2, 41);
+  Trajectory estimate = straight(0.6, 0.3, 21);
+  for (std::size_t i = 11; i < estimate.size(); ++i) estimate[i].stamp += 3600.0;
+  EvaluationOptions options;
+  options.delta = 0.5;
+  const auto figures = figuresOf(evaluate(truth, estimate, options));
+  EXPECT_NEAR(valueOf(figures, "coverage"), 0.25, 1e-12);
+  EXPECT_NEAR(valueOf(figures, "matched"), 11.0 / 21.0, 1e-12);
+}
+
 TEST(ReportTest, FiguresOfAKnownDrift) {
   const Trajectory truth = straight(0.5, 0.2, 41);
   const Trajectory estimate = straight(0.6, 0.3, 21);

@@ -7,17 +7,21 @@
     test/inputs/bags.py BUILD --node    plays some of them through the node: the same poses as run_bag's
 """
 
+import copy
+import gzip
 import os
 import re
+import signal
 import subprocess
 import sys
 import tempfile
+import time
 
 import cv2
 import genpy
 import numpy
 from geometry_msgs.msg import TransformStamped
-from sensor_msgs.msg import CameraInfo
+from sensor_msgs.msg import CameraInfo, Image
 from tf2_msgs.msg import TFMessage
 
 import recordings
@@ -31,11 +35,12 @@ SAME = 1.5  # times the error of the bag as it was generated: the same but for n
 
 
 class Row:
-    """A recording, what is expected of it (poses, and words that are said), and how it is told."""
+    """A recording, what is expected of it (poses, and words that run_bag and the node say), and how it
+    is told."""
 
-    def __init__(self, group, title, make, poses, says="", outcome="", error=SAME):
+    def __init__(self, group, title, make, poses, says="", outcome="", error=SAME, node_says=""):
         self.group, self.title, self.make = group, title, make
-        self.poses, self.says, self.error = poses, says, error
+        self.poses, self.says, self.error, self.node_says = poses, says, error, node_says
         self.outcome = outcome or ("the same as the bag itself" if poses == ALL else "")
 
 
@@ -87,10 +92,20 @@ def rows(r):
            topic=COLOR + "/compressed", outcome="demosaiced", error=3.0)
     color("WebP, BMP", lambda m: compressed(m, b"RIFF    WEBP", "rgb8; webp compressed "), 0,
            "its data are neither JPEG nor PNG", topic=COLOR + "/compressed")
+    color("a JPEG or PNG whose format says something else",
+          lambda m: compressed(m, png(rgb(m)[..., ::-1]), "jpeg"), ALL, topic=COLOR + "/compressed")
+    color("rows with bytes behind them", lambda m: padded(m, 13), ALL)
+    add("Color", "a first image that is damaged", lambda: first_is_empty(r), ALL - 1,
+        "skipped (the image message is empty): 1", "it is skipped")
+    add("Color", "of several cameras", lambda: two_cameras(r), ALL,
+        "--rgb and --depth choose another camera: /camera2/rgb/image_raw",
+        "the first known pair of topics, and the others are named")
     color("`hsv8`, an empty encoding", lambda m: image(m, rgb(m), ""), 0, "expected mono8, mono16, rgb8")
 
     depth("`16UC1`, `mono16` (mm)", lambda m: image(m, pixels(m), "mono16"), ALL)
     depth("`32FC1` (m)", lambda m: image(m, (pixels(m) / 1000.0).astype("f4"), "32FC1"), ALL)
+    depth("`16UC1`, `32FC1`, the higher byte first", big_endian, ALL)
+    depth("rows with bytes behind them, even an odd number", lambda m: padded(m, 13), ALL)
     depth("`64FC1`, `32SC1`, `Z16`", lambda m: image(m, pixels(m) / 1000.0, "64FC1"), 0,
           "expected 16UC1 (millimeters) or 32FC1 (meters)")
     depth("`compressedDepth`, PNG", lambda m: compressed(m, header + png(pixels(m)), "16UC1; compressedDepth png"),
@@ -103,7 +118,8 @@ def rows(r):
           lambda m: image(m, pixels(m)[::2, ::2], "16UC1"), ALL, outcome="enlarged", error=2.5)
     depth("another ratio of sizes", lambda m: image(m, pixels(m)[:200], "16UC1"), 0,
           "320 x 200 pixels, but the image 320 x 240: register it")
-    depth("meters as `16UC1`", lambda m: image(m, pixels(m) // 1000, "16UC1"), 0, "median depth seen 0.00")
+    depth("meters as `16UC1`", lambda m: image(m, pixels(m) // 1000, "16UC1"), 0, "median depth seen 0.00",
+          node_says="median depth seen 0.00")
     depth("millimeters as `32FC1`", lambda m: image(m, pixels(m).astype("f4"), "32FC1"), 0, "median depth seen")
     add("Depth", "of a camera beside color, its calibration and tf recorded",
         lambda: unregistered(r, True), ALL, "depth on /camera/depth/image_raw is registered to color here",
@@ -154,8 +170,8 @@ def rows(r):
                                                        0, 0, 1]), ALL, "the calibration has changed",
          "a new segment that begins at the last pose", error=20.0)
 
-    stamps("zero at first", lambda s, n, t: 0.0 if n < 5 else s, 36,
-           "left_out (stamp is not newer than that of the frame before): 4", "they are one frame")
+    stamps("zero at first", lambda s, n, t: 0.0 if n < 5 else s, 35, "left_out (stamp is zero): 5",
+           "the first with a time is the first")
     stamps("zero for ever", lambda s, n, t: 0.0, 0, "all 40 stamps are 0.000000")
     stamps("doubled", lambda s, n, t: recordings.DAY + 1 + n // 2 * 2 / 30.0, 20,
            "left_out (stamp is not newer than that of the frame before): 20", "the first of each counts")
@@ -172,9 +188,10 @@ def rows(r):
            "are stamped 0.7 s apart (depth later): two clocks")
     stamps("depth 10 ms later than color", lambda s, n, t: s + 0.01 * (t == DEPTH), ALL)
     stamps("depth 15 ms later than color", lambda s, n, t: s + 0.015 * (t == DEPTH), ALL,
-           "depth is stamped 15.0 ms later", "a note")
+           "depth is stamped 15.0 ms later", "a note", node_says="depth is stamped 15.0 ms later")
     stamps("of 2105", lambda s, n, t: s - recordings.DAY + 4.29e9, ALL, error=None)
-    add("Stamps", "recorded in reverse", lambda: reversed_bag(r), ALL, "recorded in another order", "sorted, and told")
+    add("Stamps", "recorded in reverse", lambda: reversed_bag(r), ALL, "recorded in another order",
+        "run_bag sorts them and says so; the node leaves out what is late")
 
     def cut(part):
         return lambda data: data[:int(len(data) * part)]
@@ -184,6 +201,7 @@ def rows(r):
             data[len(data) // 2 + k] ^= 0xff
         return data
 
+    add("Files", "topics and frames with or without their first slash", lambda: other_slashes(r), ALL)
     add("Files", "split: several bags", lambda: split(r), ALL, outcome="as one")
     add("Files", "cut off", lambda: r.bytes_of("x.bag", cut(0.5)), 19, "(rosbag reindex ",
         "what is there, and `rosbag reindex` is named", error=3.0)
@@ -197,6 +215,9 @@ def rows(r):
     add("Files", "ROS 2: `.mcap`, `.db3`, a folder", lambda: write(r, "x.mcap", b"\x89MCAP0\r\n"), 0,
         "it is a recording of ROS 2 (MCAP): convert it first")
     add("Files", "version 1 of the format", lambda: write(r, "x.bag", b"#ROSBAG V1.2\n"), 0, "rosbag fix")
+    add("Files", "packed by gzip, bzip2, xz, zip, 7z, zstd or rar",
+        lambda: write(r, "x.bag.gz", gzip.compress(b"#ROSBAG V2.0\n")), 0, "it is packed by gzip: unpack it first")
+    add("Files", "a pipe", lambda: pipe(r), 0, "it is a pipe or a device")
     add("Files", "no bag at all, an empty file, a folder", lambda: write(r, "x.bag", b"hello\n"), 0, "it is no bag")
     return table
 
@@ -205,6 +226,47 @@ def write(r, name, data):
     with open(r.path(name), "wb") as file:
         file.write(data)
     return r.path(name)
+
+
+def padded(message, number):
+    rows = numpy.frombuffer(message.data, "u1").reshape(message.height, message.step)
+    padding = numpy.full((message.height, number), 77, "u1")
+    result = copy.copy(message)
+    result.step, result.data = message.step + number, numpy.hstack([rows, padding]).tobytes()
+    return result
+
+
+def big_endian(message):
+    result = image(message, pixels(message).astype(">u2"), "16UC1")
+    result.is_bigendian = 1
+    return result
+
+
+def first_is_empty(r):
+    def change(topic, message, _time, number):
+        return [(topic, Image(header=message.header, encoding="rgb8"))] if topic == COLOR and number == 0 else None
+    return r.change("x.bag", change)
+
+
+def two_cameras(r):
+    def change(topic, message, *_):
+        return [(topic, message)] + [(topic.replace("camera", "camera2"), message)] * topic.startswith("/camera")
+    return r.change("x.bag", change)
+
+
+def other_slashes(r):
+    def change(topic, message, *_):
+        message = copy.deepcopy(message)
+        if topic == DEPTH:
+            message.header.frame_id = "/" + message.header.frame_id
+        return [(topic.lstrip("/"), message)]
+    return r.change("x.bag", change)
+
+
+def pipe(r):
+    if not os.path.exists(r.path("pipe.bag")):
+        os.mkfifo(r.path("pipe.bag"))
+    return r.path("pipe.bag")
 
 
 def damaged(r, flip):
@@ -325,10 +387,10 @@ def fault_of(r, row, base_error):
 
 
 # Rows that the node could see otherwise than run_bag does: what depends on order, time and topics.
-IN_THE_NODE = ("`compressedDepth`, RVL", "`yuyv`, `yuv422_yuy2`", "half the size", "of a camera beside color, its",
+IN_THE_NODE = ("meters as", "depth 15 ms later", "`compressedDepth`, RVL", "`yuyv`, `yuv422_yuy2`", "half the size", "of a camera beside color, its",
                "zeros until", "one message at the end", "a change by rounding", "a true change", "zero at first",
                "doubled", "of color doubled", "alternating by 3 s", "a single one far ahead", "set back in the middle",
-               "of 2105", "split: several bags", "cut off", "a damaged chunk")
+               "of 2105", "topics and frames", "split: several bags", "cut off", "a damaged chunk")
 
 
 def trajectories(folder, stem):
@@ -342,12 +404,33 @@ def trajectories(folder, stem):
     return texts
 
 
+def play_command(r, bags, *arguments):
+    return [os.path.join(ROOT, "test/ros/run_with_ros"), r.build, "roslaunch", "--port", "0", "mivo", "bag.launch",
+            "bag:=" + " ".join(bags), "rviz:=false", "output:=" + r.path("out_node.txt"), "force:=true", "delay:=0.5",
+            *arguments]
+
+
 def play(r, bags, *arguments):
     """What bag.launch says."""
-    return subprocess.run(
-        [os.path.join(ROOT, "test/ros/run_with_ros"), r.build, "roslaunch", "--port", "0", "mivo", "bag.launch",
-         "bag:=" + " ".join(bags), "rviz:=false", "output:=" + r.path("out_node.txt"), "force:=true", "delay:=0.5",
-         *arguments], text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False, timeout=90).stdout
+    return subprocess.run(play_command(r, bags, *arguments), text=True, stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT, check=False, timeout=90).stdout
+
+
+def play_past_a_stopped_node(r, bags, seconds):
+    """As play(), with the node standing still for longer than the bag lasts."""
+    node, said = 0, []
+    with subprocess.Popen(play_command(r, bags), text=True, stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT) as launch:
+        for line in launch.stdout:
+            said.append(line)
+            started = re.search(r"process\[odometry-\d+\]: started with pid \[(\d+)\]", line)
+            if started:
+                node = int(started.group(1))
+            if "Finished waiting for subscribers" in line:
+                os.kill(node, signal.SIGSTOP)
+                time.sleep(seconds)
+                os.kill(node, signal.SIGCONT)
+    return "".join(said)
 
 
 def tf_fault_of(r, bag, *arguments):
@@ -367,10 +450,22 @@ def node_fault_of(r, row):
     expected = trajectories(r.folder, "out")
     said = play(r, bags)
     got = trajectories(r.folder, "out_node")
+    if row.node_says not in said:
+        return "'%s' was not said, but: %s" % (row.node_says, said)
     if got == expected:
         return ""
     count = [[text.count("\n") - 1 for text in texts] for texts in (got, expected)]
     return "poses of the node %s, of run_bag %s: %s" % (*count, said if count[0] != count[1] else "other values")
+
+
+def stopped_fault_of(r, row):
+    """Why messages are lost while the node stands still, as on a busy machine; empty: none is."""
+    clean(r)
+    bag = row.make()
+    track(r, [bag])
+    said = play_past_a_stopped_node(r, [bag], 2.0)
+    is_same = trajectories(r.folder, "out_node") == trajectories(r.folder, "out")
+    return "" if is_same else said
 
 
 def table_text(table):
@@ -418,10 +513,16 @@ def main(arguments):
             print("%s: %s: %s" % (row.group, row.title, fault or "as told"), flush=True)
         if "--node" in arguments and not only:
             without = r.change("x.bag", lambda topic, *_: [] if topic == "/tf_static" else None)
-            for title, fault in (("played from the middle", tf_fault_of(r, r.base, "start:=0.5")),
-                                 ("a bag without tf", tf_fault_of(r, without))):
+            packed = r.color("y.bag", lambda m: compressed(m, png(rgb(m)), "rgb8; png compressed rgb8"),
+                             COLOR + "/compressed")
+            for title, fault in (("from the middle", tf_fault_of(r, r.base, "start:=0.5")),
+                                 ("without tf", tf_fault_of(r, without)),
+                                 ("with its transport named", tf_fault_of(r, packed, "rgb_transport:=compressed"))):
                 bad += bool(fault)
-                print("tf: %s: %s" % (title, fault or "there"), flush=True)
+                print("played %s: %s" % (title, fault or "there is odometry"), flush=True)
+            fault = stopped_fault_of(r, next(row for row in table if row.title == "one message at the end"))
+            bad += bool(fault)
+            print("the node stands still at the end of the bag: %s" % (fault or "no message is lost"), flush=True)
         return 1 if bad else 0
 
 

@@ -124,6 +124,21 @@ TEST_F(CommandLineTest, HelpNamesEverything) {
   }
 }
 
+/// As the file behind a redirection on a full disk.
+class FullDisk : public std::streambuf {};
+
+TEST(RunProgramTest, OutputThatCannotBeWrittenIsAFailure) {
+  FullDisk disk;
+  std::streambuf* const usual = std::cout.rdbuf(&disk);
+  testing::internal::CaptureStderr();
+  const int code = runProgram("tool", [] { std::cout << "frames: 40\n"; });
+  std::cout.rdbuf(usual);
+  std::cout.clear();
+  EXPECT_EQ(code, 1);
+  EXPECT_EQ(testing::internal::GetCapturedStderr(),
+            "tool: cannot write to the standard output: is the disk full?\n");
+}
+
 TEST(RunProgramTest, ExceptionsBecomeExitCodesAndOneLine) {
   const auto run = [](const std::function<void()>& body, std::string& errors) {
     testing::internal::CaptureStderr();
@@ -134,8 +149,8 @@ TEST(RunProgramTest, ExceptionsBecomeExitCodesAndOneLine) {
   std::string errors;
   EXPECT_EQ(run([] {}, errors), 0);
   EXPECT_EQ(errors, "");
-  EXPECT_EQ(run([] { throw Error("bad\ninput"); }, errors), 1);
-  EXPECT_EQ(errors, "tool: bad input\n");
+  EXPECT_EQ(run([] { throw Error("bad\n\x1b\x7finput"); }, errors), 1);
+  EXPECT_EQ(errors, "tool: bad   input\n");
   EXPECT_EQ(run([] { throw UsageError("what"); }, errors), 2);
   EXPECT_EQ(errors, "tool: what (see tool --help)\n");
   EXPECT_EQ(run([] { throw std::bad_alloc(); }, errors), 1);

@@ -138,7 +138,7 @@ def main():
     turns = numpy.array([angle(multiply(conjugate(q[2]), multiply(turn, p[2]))) for q, p in pairs])
     figures = {
         "frames": len(estimate),
-        "coverage": (estimate[-1][0] - estimate[0][0]) / (truth[-1][0] - truth[0][0]),
+        "coverage": (pairs[-1][1][0] - pairs[0][1][0]) / (truth[-1][0] - truth[0][0]),
         "matched": len(pairs) / len(estimate),
         "rpe_frame_translation_rmse_m": rmse(frame_t),
         "rpe_frame_rotation_rmse_deg": rmse(frame_r),

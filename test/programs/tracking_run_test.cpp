@@ -261,10 +261,13 @@ TEST_F(TrackingRunTest, NothingReadableIsSaidAndDoesNotFloodTheScreen) {
 TEST_F(TrackingRunTest, DepthThatCannotBeRightIsNamedEvenIfItWasTracked) {
   options_.parameters.depth.min_depth = 1.0;
   TrackingSummary summary = track(3, keep);
-  EXPECT_EQ(findDepthFault(summary, options_.parameters.depth, "unit"), "");
+  const auto fault = [&] {
+    return summary.depth.findFault(options_.parameters.depth, "unit",
+                                   DepthAccount::Expected::kRoom);
+  };
+  EXPECT_EQ(fault(), "");
   options_.parameters.depth.min_depth = 2.0;
-  EXPECT_NE(findDepthFault(summary, options_.parameters.depth, "unit").find("(unit)?"),
-            std::string::npos);
+  EXPECT_NE(fault().find("(unit)?"), std::string::npos);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <opencv2/imgproc.hpp>
 #include <random>
 #include <sstream>
@@ -117,6 +118,46 @@ TEST_F(BagCheckTest, WhatIsWrongIsSaid) {
                     m.depth.header.stamp = toTime(SmallBag::stamp(i) + 0.2);
                   }),
                   "color and depth that came together are stamped 0.200 s apart"));
+}
+
+TEST_F(BagCheckTest, DepthThatIsStampedLaterHasAPositiveOffset) {
+  for (const double late : {0.008, -0.008, 0.2, -0.2}) {
+    const std::string path = folder_ / "test.bag";
+    SmallBag::write(path, 0, 40, [&](int i, SmallBag::Messages& m) {
+      m.depth.header.stamp = toTime(SmallBag::stamp(i) + late);
+    });
+    const BagReport report = checkBag({path}, {});
+    ASSERT_TRUE(report.clock_offset) << late;
+    EXPECT_NEAR(*report.clock_offset, late, 1e-6);
+    // Of images that are 33 ms apart, those nearest to each other are paired.
+    if (std::abs(late) < 0.02) {
+      EXPECT_NEAR(report.pair_offset, late, 1e-6);
+    }
+  }
+}
+
+TEST_F(BagCheckTest, ColorThatIsMirroredAgainstDepthIsSaid) {
+  const auto warnings = [&](bool is_mirrored) {
+    return warningsOf([&](int i, SmallBag::Messages& m) {
+      const Frame frame = boxes(0, 0, static_cast<unsigned>(i));
+      cv::Mat image;
+      cv::flip(frame.image, image, 1);
+      if (!is_mirrored) image = frame.image;
+      for (sensor_msgs::Image* message : {&m.color, &m.depth}) {
+        const cv::Mat& pixels = message == &m.color ? image : frame.depth;
+        message->width = 320;
+        message->height = 240;
+        message->step = static_cast<std::uint32_t>(pixels.step);
+        message->data.assign(pixels.datastart, pixels.dataend);
+      }
+      m.info.width = 320;
+      m.info.height = 240;
+      m.info.K = {300.0, 0.0, 159.5, 0.0, 300.0, 119.5, 0.0, 0.0, 1.0};
+    });
+  };
+  const std::string text = "where those of color would be if it were mirrored";
+  EXPECT_TRUE(has(warnings(true), text));
+  EXPECT_FALSE(has(warnings(false), text));
 }
 
 TEST_F(BagCheckTest, AReportHasALineForEachFigureAndARowForEachFrame) {

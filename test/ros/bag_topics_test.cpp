@@ -71,6 +71,41 @@ TEST(FindTopicsTest, AWantedColorTopicGoesWithTheDepthOfItsDriver) {
   EXPECT_EQ("/camera/depth/image", findTopics(contents, {"/camera/rgb/image_color", "", ""}).depth);
 }
 
+TEST(FindTopicsTest, ASlashAtTheBeginningMakesNoDifference) {
+  const BagContents without = {{"camera/rgb/image_raw", kImage},
+                               {"camera/depth_registered/image_raw/compressedDepth", kCompressed},
+                               {"camera/rgb/camera_info", kInfo}};
+  for (const RgbdTopics& wanted :
+       {RgbdTopics{}, RgbdTopics{"/camera/rgb/image_raw", "", "/camera/rgb/camera_info"}}) {
+    const RgbdTopics topics = findTopics(without, wanted);
+    EXPECT_EQ("camera/rgb/image_raw", topics.color);  // as the bag spells it
+    EXPECT_EQ("camera/depth_registered/image_raw/compressedDepth", topics.depth);
+    EXPECT_EQ("camera/rgb/camera_info", topics.camera_info);
+    EXPECT_EQ("openni2", layoutOf(topics));
+  }
+  const BagContents with = {{"/a/image", kImage}, {"/b/depth", kImage}, {"/a/camera_info", kInfo}};
+  const RgbdTopics topics = findTopics(with, {"a/image", "b/depth", "a/camera_info"});
+  EXPECT_EQ("/a/image", topics.color);
+  EXPECT_EQ("/b/depth", topics.depth);
+  EXPECT_EQ("/a/camera_info", topics.camera_info);
+}
+
+TEST(FindTopicsTest, OtherCamerasAreThoseWithColorElsewhere) {
+  const BagContents contents = {{"/camera/rgb/image_raw", kImage},
+                                {"/camera/rgb/image_mono/compressed", kCompressed},
+                                {"/camera/depth_registered/image_raw", kImage},
+                                {"/camera/ir/image", kImage},
+                                {"/camera/infra1/image_rect_raw", kImage},
+                                {"/camera/rgb/camera_info", kInfo}};
+  EXPECT_TRUE(otherCameras(contents, findTopics(contents, {})).empty());
+  BagContents two = contents;
+  two["/camera2/color/image_raw"] = kImage;
+  two["/camera2/color/image_raw/compressed"] = kCompressed;
+  two["/camera2/aligned_depth_to_color/image_raw"] = kImage;
+  EXPECT_EQ(std::set<std::string>{"/camera2/color/image_raw"},
+            otherCameras(two, findTopics(two, {})));
+}
+
 TEST(FindTopicsTest, WhatIsMissingIsNamedWithWhatThereIs) {
   const BagContents contents = {{"/left/image", kImage}, {"/camera/rgb/camera_info", kInfo}};
   EXPECT_ERROR(findTopics(contents, {}), "/left/image");

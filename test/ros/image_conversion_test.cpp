@@ -204,6 +204,24 @@ TEST(ToDepthImageTest, IntegersAreMillimetersAndNotCopied) {
   }
 }
 
+TEST(ToDepthImageTest, RowsMayBeginInTheMiddleOfAValue) {
+  for (const auto& [type, encoding] :
+       {std::pair(CV_16UC1, "16UC1"), std::pair(CV_32FC1, "32FC1")}) {
+    const cv::Mat image = pattern(type);
+    sensor_msgs::Image message = makeMessage(image, encoding);
+    constexpr std::uint32_t kPadding = 3;
+    const std::vector<std::uint8_t> packed = message.data;
+    message.data.clear();
+    for (std::uint32_t y = 0; y < message.height; ++y) {
+      const auto row = packed.begin() + y * message.step;
+      message.data.insert(message.data.end(), row, row + message.step);
+      message.data.insert(message.data.end(), kPadding, 77);
+    }
+    message.step += kPadding;
+    EXPECT_TRUE(equal(image, toDepthImage(message).image)) << encoding;
+  }
+}
+
 TEST(ToDepthImageTest, ForeignByteOrderIsSwapped) {
   cv::Mat image(kHeight, kWidth, CV_16UC1, cv::Scalar(0xE803));  // 1000 with its bytes swapped
   sensor_msgs::Image message = makeMessage(image, "16UC1");

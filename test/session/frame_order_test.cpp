@@ -10,7 +10,7 @@ namespace mivo {
 namespace {
 
 /// The decisions on frames as text: their numbers, with "|" before the first frame of a new time,
-/// late frames in brackets and outliers in braces.
+/// late frames in brackets, outliers in braces and unset stamps in square brackets.
 std::string fateOf(const std::vector<double>& stamps) {
   std::string text;
   FrameOrder<int> order(
@@ -18,8 +18,10 @@ std::string fateOf(const std::vector<double>& stamps) {
         text += (is_new_time ? "| " : "") + std::to_string(i) + ' ';
       },
       [&](int& i, StampFault fault) {
-        const bool late = fault == StampFault::kLate;
-        text += (late ? "(" : "{") + std::to_string(i) + (late ? ") " : "} ");
+        const std::string marks = fault == StampFault::kLate     ? "()"
+                                  : fault == StampFault::kAstray ? "{}"
+                                                                 : "[]";
+        text += marks[0] + std::to_string(i) + marks[1] + ' ';
       });
   for (std::size_t i = 0; i < stamps.size(); ++i) order.push(stamps[i], static_cast<int>(i));
   order.flush();
@@ -35,9 +37,17 @@ TEST(FrameOrderTest, DoubledAndLateFramesAreDropped) {
 }
 
 TEST(FrameOrderTest, StampsOfZeroAreNoTime) {
-  EXPECT_EQ(fateOf({0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}), "0 (1) (2) (3) (4) (5) (6) ");
-  // The clock is set after the first frames.
-  EXPECT_EQ(fateOf({0.0, 0.0, 0.0, 1.6e9, 1.6e9 + 0.03, 1.6e9 + 0.06}), "0 (1) (2) 3 4 5 ");
+  EXPECT_EQ(fateOf({0.0, 0.0, 0.0, 0.0}), "[1] [2] [3] [0] ");
+  // The clock is set after the first frames, or after the first one.
+  EXPECT_EQ(fateOf({0.0, 0.0, 0.0, 1.6e9, 1.6e9 + 0.03, 1.6e9 + 0.06}), "[1] [2] [0] 3 4 5 ");
+  EXPECT_EQ(fateOf({0.0, 1.6e9, 1.6e9 + 0.03}), "[0] 1 2 ");
+  EXPECT_EQ(fateOf({1.6e9, 0.0, 1.6e9 + 0.03}), "0 (1) 2 ");
+}
+
+TEST(FrameOrderTest, ARecordingMayBeginAtZero) {
+  EXPECT_EQ(fateOf({0.0}), "0 ");
+  EXPECT_EQ(fateOf({0.0, 1.0, 2.0}), "0 1 2 ");
+  EXPECT_EQ(fateOf({0.0, 60.0, 60.1}), "0 1 2 ");
 }
 
 TEST(FrameOrderTest, AlternatingClocksGiveTheLaterOne) {

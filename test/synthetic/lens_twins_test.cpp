@@ -4,51 +4,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <vector>
 
-#include "evaluation/relative_pose_error.h"
-#include "mivo/core/odometry.h"
-#include "synthetic/sequence_generator.h"
+#include "synthetic/twin_error.h"
 
 namespace mivo {
 namespace {
 
-constexpr double kSeconds = 0.5;  // of a relative error
-
-/// Root mean square of the relative errors, m, over two paths.
-double errorBehind(const Camera& camera) {
-  double squares = 0.0;
-  std::size_t count = 0;
-  for (const std::uint64_t seed : {1U, 2U}) {
-    GeneratorOptions options;
-    options.scene = "office";
-    options.frames = 40;
-    options.seed = seed;
-    options.camera = camera;
-    options.sensor.samples = 2;
-    SequenceGenerator generator(options);
-    Odometry odometry(camera, {});
-    Trajectory truth;
-    Trajectory estimate;
-    while (!generator.atEnd()) {
-      const SyntheticFrame filmed = generator.next();
-      Frame frame;
-      frame.stamp = filmed.stamp;
-      frame.image = toGray(filmed.color, ChannelOrder::kBgr);
-      frame.depth = filmed.depth;
-      frame.depth_unit = 1.0 / options.sensor.depth.units_per_meter;
-      const TrackingResult& result = odometry.process(frame);
-      EXPECT_EQ(result.state, TrackingState::kTracking);
-      truth.push_back({filmed.stamp, filmed.T_world_camera});
-      estimate.push_back({filmed.stamp, result.T_odom_camera});
-    }
-    for (const RelativePoseError& error : relativePoseErrors(truth, estimate, kSeconds, 0.001)) {
-      squares += error.translation * error.translation;
-      ++count;
-    }
-  }
-  return std::sqrt(squares / static_cast<double>(count));
-}
+using testing::relativeErrorIn;
 
 /// @param degrees  horizontal field of view
 Camera wideCamera(const Distortion& lens, double degrees) {
@@ -63,13 +25,14 @@ TEST(LensTwins, EightCoefficientsAreAsPreciseAsAPinhole) {
   const Camera pinhole = xtionCamera(320, 240);
   Camera rational = pinhole;
   rational.distortion = {0.62, -2.74, 0.0005, -0.0002, 1.54, 0.49, -2.55, 1.46};  // Azure Kinect
-  EXPECT_LT(errorBehind(rational), 1.1 * errorBehind(pinhole));
+  EXPECT_LT(relativeErrorIn(rational), 1.1 * relativeErrorIn(pinhole));
 }
 
 TEST(LensTwins, AFisheyeOf120DegreesIsAsPreciseAsAPinhole) {
   const Distortion fisheye = {
       0.03, -0.01, 0.0, 0.0, 0.002, -0.0005, 0.0, 0.0, LensModel::kEquidistant};
-  EXPECT_LT(errorBehind(wideCamera(fisheye, 120.0)), 1.1 * errorBehind(wideCamera({}, 120.0)));
+  EXPECT_LT(relativeErrorIn(wideCamera(fisheye, 120.0)),
+            1.1 * relativeErrorIn(wideCamera({}, 120.0)));
 }
 
 }  // namespace

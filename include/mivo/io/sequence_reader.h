@@ -13,6 +13,8 @@
 
 namespace mivo {
 
+struct SequenceListing;
+
 /// The images of one frame, before color becomes gray.
 struct SequenceImages {
   double stamp = 0.0;        ///< s, of color
@@ -56,6 +58,9 @@ class SequenceReader : public FrameSource {
 
   double depthUnitsPerMeter() const { return camera_.depth_units_per_meter; }
 
+  /// Where the images of the frames lie: io/sequence_listing.h.
+  const SequenceListing& listing() const;
+
   std::string depthUnit() const override;
   const std::string& notice() const override { return notice_; }
   const std::map<std::string, std::size_t>& leftOut() const override;
@@ -66,7 +71,6 @@ class SequenceReader : public FrameSource {
   Status readNext(const Read& read, FrameFault& fault);
 
   SequenceCamera camera_;
-  std::string camera_file_;  // where the camera comes from
   std::string notice_;
   std::unique_ptr<Images> images_;
   std::size_t count_ = 0;
