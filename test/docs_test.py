@@ -72,7 +72,7 @@ def node_parameters():
 
 
 def sources():
-    for pattern in ("src/**/*.cpp", "src/**/*.h", "include/**/*.h", "launch/*"):
+    for pattern in ("src/**/*.cpp", "src/**/*.h", "include/**/*.h", "src/ros/play_bag", "launch/*"):
         for path in sorted(glob.glob(os.path.join(ROOT, pattern), recursive=True)):
             yield os.path.relpath(path, ROOT)
 

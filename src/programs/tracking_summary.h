@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
+#include "io/depth_account.h"
 #include "mivo/core/frame.h"
 #include "mivo/core/parameters.h"
 #include "mivo/core/tracking_result.h"
-#include "session/depth_account.h"
 
 namespace mivo {
 

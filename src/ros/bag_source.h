@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "io/depth_account.h"
 #include "mivo/io/frame_range.h"
 #include "mivo/io/frame_source.h"
 #include "mivo/trajectory/stamped_pose.h"
@@ -14,7 +15,6 @@
 #include "ros/calibration_history.h"
 #include "ros/message_frame.h"
 #include "ros/recording.h"
-#include "session/depth_account.h"
 
 namespace mivo {
 

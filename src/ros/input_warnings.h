@@ -3,10 +3,10 @@
 
 #include <vector>
 
+#include "io/depth_account.h"
 #include "ros/image_message.h"
 #include "ros/node_parameters.h"
 #include "ros/transform_source.h"
-#include "session/depth_account.h"
 
 namespace mivo {
 

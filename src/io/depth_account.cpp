@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "session/depth_account.h"
+#include "io/depth_account.h"
 
 #include <fmt/format.h>
 
