@@ -2,6 +2,7 @@
 #include "ros/bag_source.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nav_msgs/Path.h>
 #include <sensor_msgs/CameraInfo.h>
 

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <iostream>
+
 #include "mivo/core/error.h"
 
 namespace mivo {
