@@ -428,7 +428,7 @@ def play_past_a_stopped_node(r, bags, seconds):
                 node = int(started.group(1))
             if "Finished waiting for subscribers" in line:
                 os.kill(node, signal.SIGSTOP)
-                time.sleep(seconds)
+                time.sleep(seconds)  # the fault itself: a node that stands still has nothing to wait for
                 os.kill(node, signal.SIGCONT)
     return "".join(said)
 

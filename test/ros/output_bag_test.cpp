@@ -5,8 +5,6 @@
 #include <rosbag/view.h>
 #include <sensor_msgs/Image.h>
 
-#include <filesystem>
-
 #include "ros/expect_error.h"
 #include "support/temporary_folder.h"
 
@@ -36,7 +34,6 @@ TEST(OutputBagTest, IsCompleteWhenItIsClosedOrGone) {
 }
 
 TEST(OutputBagTest, AFullDiskIsAnErrorAndNotTheEndOfTheProcess) {
-  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "this system has no /dev/full";
   const std::string text = "/dev/full cannot be written";
   const auto fill = [](std::size_t bytes) {
     OutputBag bag("/dev/full");
